@@ -1,0 +1,73 @@
+// Embree 3.13 and 4 under one name, for C++ and ISPC. PHALANX_EMBREE is the major version.
+//
+//   phalanx_intersect(accel, &ray_hit, coherent)   closest hit of one ray (C++) or a gang (ISPC)
+//   phalanx_occluded(accel, &ray, coherent)        sets tfar to -infinity where something is hit
+#pragma once
+
+#ifdef ISPC
+#if PHALANX_EMBREE == 3
+#include <embree3/rtcore.isph>
+#else
+#include <embree4/rtcore.isph>
+#endif
+#define PHALANX_QUERY static inline void
+#define PHALANX_VARYING varying
+#define PHALANX_UNIFORM uniform
+#define PHALANX_INTERSECT rtcIntersectV
+#define PHALANX_OCCLUDED rtcOccludedV
+#else
+#if PHALANX_EMBREE == 3
+#include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
+#define PHALANX_QUERY static inline void
+#define PHALANX_VARYING
+#define PHALANX_UNIFORM
+#define PHALANX_INTERSECT rtcIntersect1
+#define PHALANX_OCCLUDED rtcOccluded1
+#endif
+
+#if PHALANX_EMBREE == 3
+
+PHALANX_QUERY phalanx_intersect(void *PHALANX_UNIFORM accel,
+                                PHALANX_VARYING RTCRayHit *PHALANX_UNIFORM ray,
+                                PHALANX_UNIFORM bool coherent) {
+  PHALANX_UNIFORM RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                           : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  PHALANX_INTERSECT((PHALANX_UNIFORM RTCScene)accel, &context, ray);
+}
+
+PHALANX_QUERY phalanx_occluded(void *PHALANX_UNIFORM accel,
+                               PHALANX_VARYING RTCRay *PHALANX_UNIFORM ray,
+                               PHALANX_UNIFORM bool coherent) {
+  PHALANX_UNIFORM RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                           : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  PHALANX_OCCLUDED((PHALANX_UNIFORM RTCScene)accel, &context, ray);
+}
+
+#else
+
+PHALANX_QUERY phalanx_intersect(void *PHALANX_UNIFORM accel,
+                                PHALANX_VARYING RTCRayHit *PHALANX_UNIFORM ray,
+                                PHALANX_UNIFORM bool coherent) {
+  PHALANX_UNIFORM RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+  PHALANX_INTERSECT((PHALANX_UNIFORM RTCScene)accel, ray, &arguments);
+}
+
+PHALANX_QUERY phalanx_occluded(void *PHALANX_UNIFORM accel,
+                               PHALANX_VARYING RTCRay *PHALANX_UNIFORM ray,
+                               PHALANX_UNIFORM bool coherent) {
+  PHALANX_UNIFORM RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+  PHALANX_OCCLUDED((PHALANX_UNIFORM RTCScene)accel, ray, &arguments);
+}
+
+#endif

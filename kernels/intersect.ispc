@@ -1,0 +1,20 @@
+// Stage 2: closest hits, a gang of rays at a time.
+#include "gang.isph"
+#include "trace.isph"
+
+export void KERNEL(intersect)(const uniform SceneView &scene, const uniform WaveView &wave,
+                              const uniform int32 slots[], uniform int32 count,
+                              uniform int32 coherent) {
+  foreach (i = 0 ... count) {
+    const Gang g = make_gang(slots, i);
+    const Hit hit =
+        trace_closest(scene, get3(wave.origin_x, wave.origin_y, wave.origin_z, g),
+                      get3(wave.direction_x, wave.direction_y, wave.direction_z, g),
+                      coherent != 0);
+    put(wave.hit_geometry, g, hit.geometry);
+    put(wave.hit_primitive, g, hit.primitive);
+    put(wave.hit_u, g, hit.u);
+    put(wave.hit_v, g, hit.v);
+    if (scene.num_instances > 0) put(wave.hit_instance, g, hit.instance);
+  }
+}

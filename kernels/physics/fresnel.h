@@ -1,0 +1,55 @@
+// Reflectance of smooth interfaces for unpolarised light.
+#pragma once
+#include "vec.h"
+
+PHALANX_BEGIN
+
+struct Refraction {
+  float reflectance;   // in [0,1]; exactly 1 under total internal reflection
+  float cos_t;         // cosine of the transmitted direction, >= 0; 0 under total reflection
+};
+
+/// Dielectric interface. cos_i in [0,1]: angle of incidence. eta > 0: index on the far side over
+/// index on the near side. eta = 1 reflects exactly nothing.
+PHYS Refraction fresnel_dielectric(float cos_i, float eta) {
+  Refraction r;
+  const float sin2_i = max_of(1.0f - cos_i * cos_i, 0.0f);
+  const float cos2_t = 1.0f - sin2_i / (eta * eta);
+  if (cos2_t <= 0.0f) {
+    r.reflectance = 1.0f;
+    r.cos_t = 0.0f;
+    return r;
+  }
+  r.cos_t = square_root(cos2_t);
+  const float parallel = (eta * cos_i - r.cos_t) / (eta * cos_i + r.cos_t);
+  const float perpendicular = (cos_i - eta * r.cos_t) / (cos_i + eta * r.cos_t);
+  r.reflectance = 0.5f * (parallel * parallel + perpendicular * perpendicular);
+  return r;
+}
+
+/// One channel of a conductor with complex index eta + i k (against vacuum). cos_i in [0,1].
+/// Born and Wolf, section 14.2, in the form of Lagarde's "Memo on Fresnel equations" (2013).
+PHYS float fresnel_conductor(float cos_i, float eta, float k) {
+  const float c2 = cos_i * cos_i;
+  const float s2 = max_of(1.0f - c2, 0.0f);
+  const float t0 = eta * eta - k * k - s2;
+  const float a2b2 = safe_sqrt(t0 * t0 + 4.0f * eta * eta * k * k);
+  const float t1 = a2b2 + c2;
+  const float a = safe_sqrt(0.5f * (a2b2 + t0));
+  const float t2 = 2.0f * cos_i * a;
+  const float rs = (t1 - t2) / (t1 + t2);
+  const float t3 = c2 * a2b2 + s2 * s2;
+  const float t4 = t2 * s2;
+  const float rp = rs * (t3 - t4) / (t3 + t4);
+  return clamp_to(0.5f * (rs + rp), 0.0f, 1.0f);
+}
+
+/// Schlick 1994: f0 + (1 - f0) (1 - cos)^5. cos_i in [0,1].
+PHYS Vec3 fresnel_schlick(float cos_i, Vec3 f0) {
+  const float m = clamp_to(1.0f - cos_i, 0.0f, 1.0f);
+  const float m2 = m * m;
+  const float m5 = m2 * m2 * m;
+  return f0 + (vec3(1.0f, 1.0f, 1.0f) - f0) * m5;
+}
+
+PHALANX_END

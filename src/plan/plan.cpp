@@ -1,0 +1,188 @@
+#include "plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "../core/parallel.h"
+#include "../scene/build.h"
+#include "../wavefront/wave.h"
+#include "filter.h"
+
+namespace phalanx {
+namespace {
+
+constexpr int kDefaultWaveSize = 2048;
+constexpr int kDefaultTileSize = 32;
+constexpr int kSamplesPerPass = 16;   // fixed: the film's bits depend on it
+constexpr int kMaxSide = 65535;       // pixel coordinates travel as 16 bits each
+
+/// Bytes that Embree keeps for a primitive, measured on the scenes of bench/ (medium quality,
+/// robust): see docs/decisions/0004.
+constexpr std::int64_t kAccelBytesPerPrimitive = 96;
+
+const char *kind_name(int kind) {
+  static const char *const names[] = {"diffuse", "mirror", "dielectric", "conductor", "black"};
+  return names[kind];
+}
+
+int pick(int wanted, int otherwise) { return wanted > 0 ? wanted : otherwise; }
+
+void set_picture(Plan &plan, const SceneDescription &d, const RenderOptions &o) {
+  FrameView &f = plan.frame;
+  f.width = pick(o.width, d.film.width);
+  f.height = pick(o.height, d.film.height);
+  if (f.width > kMaxSide || f.height > kMaxSide || f.width < 1 || f.height < 1)
+    throw InputError(fmt::format("picture of {} x {} pixels: each side must be 1 to {}", f.width,
+                                 f.height, kMaxSide));
+  const bool same_size = f.width == d.film.width && f.height == d.film.height;
+  std::array<int, 4> crop = o.crop;
+  if (crop[2] == 0 && same_size) crop = d.film.crop;
+  plan.crop = crop[2] > 0 ? Rect{crop[0], crop[1], crop[2], crop[3]} : Rect{0, 0, f.width, f.height};
+  const Rect &c = plan.crop;
+  if (c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.x > f.width - c.width ||
+      c.y > f.height - c.height)
+    throw InputError(fmt::format("crop window {},{},{},{} does not lie within the picture of {} x {}",
+                                 c.x, c.y, c.width, c.height, f.width, f.height));
+  plan.spp = pick(o.spp, d.sampler.spp);
+  plan.time_limit_s = o.time_limit_s;
+  plan.filter_offsets = filter_offsets(d.film);
+  f.filter_offsets = plan.filter_offsets.data();
+  f.sampler = d.sampler.kind;
+  f.seed = o.seed.value_or(d.sampler.seed);
+  f.max_depth = o.max_depth >= 0 ? o.max_depth : d.integrator.max_depth;
+  f.roulette_depth = d.integrator.roulette_depth;
+  Diagnostics diagnostics;
+  f.camera = build_camera(d.camera, diagnostics);
+  diagnostics.throw_if_errors();
+}
+
+void find_uses(Plan &plan, const Scene &scene) {
+  for (const Geometry &g : scene.geometries) {
+    plan.material_kinds[scene.materials[static_cast<size_t>(g.material)].kind] = true;
+    plan.spheres_or_disks |= g.shape == kSpheres || g.shape == kDisks;
+  }
+  plan.sample_lights = !scene.lights.empty() && plan.frame.max_depth > 0 &&
+                       (plan.material_kinds[kDiffuse] || plan.material_kinds[kConductor]);
+  plan.instances = !scene.instances.empty();
+  plan.environment = scene.has_environment;
+}
+
+void choose_kernels(Plan &plan) {
+  plan.kernels = {"generate", "intersect"};
+  if (plan.aovs) plan.kernels.push_back("aov");
+  plan.kernels.push_back("bucket");
+  for (int kind = 0; kind < kNumMaterialKinds; ++kind)
+    if (plan.material_kinds[kind]) plan.kernels.push_back(fmt::format("shade_{}", kind_name(kind)));
+  plan.kernels.push_back("shade_escaped");
+  if (plan.sample_lights) plan.kernels.push_back("shadow");
+  plan.kernels.push_back("compact");
+}
+
+/// Bytes per path that a plan which uses everything would have and this one has not.
+int bytes_without(const Plan &plan, bool Plan::*feature) {
+  Plan with;
+  with.wave_size = plan.wave_size;
+  with.sample_lights = plan.sample_lights;
+  with.instances = plan.instances;
+  const auto bytes = [](const Plan &p) {
+    int sum = 0;
+    for (const Column &c : wave_columns(p)) sum += c.bytes;
+    return sum;
+  };
+  const int before = bytes(with);
+  with.*feature = true;
+  return bytes(with) - before;
+}
+
+void list_left_out(Plan &plan, const Scene &scene) {
+  if (!plan.sample_lights) {
+    const char *reason = scene.lights.empty()          ? "the scene has no lights to sample"
+                         : plan.frame.max_depth == 0 ? "max_depth is 0"
+                                                       : "every material is specular";
+    plan.left_out.push_back({"light sampling, shadow rays", reason,
+                             bytes_without(plan, &Plan::sample_lights)});
+  }
+  if (!plan.instances)
+    plan.left_out.push_back({"instances", "none in the scene", bytes_without(plan, &Plan::instances)});
+  if (!plan.environment) plan.left_out.push_back({"environment", "the scene has none", 0});
+  if (!plan.aovs) plan.left_out.push_back({"albedo, normal, depth", "not asked for", 0});
+  if (!plan.spheres_or_disks)
+    plan.left_out.push_back({"analytic spheres and disks", "none in the scene", 0});
+  for (int kind = 0; kind < kNumMaterialKinds; ++kind)
+    if (!plan.material_kinds[kind])
+      plan.left_out.push_back({fmt::format("shade_{}", kind_name(kind)), "no such material", 0});
+  if (plan.frame.camera.lens_radius == 0)
+    plan.left_out.push_back({"lens samples", "pinhole camera", 0});
+}
+
+}  // namespace
+
+int Plan::bytes_per_path() const {
+  int sum = 0;
+  for (const Column &c : columns) sum += c.bytes;
+  return sum;
+}
+
+std::int64_t Plan::wave_bytes() const {
+  const std::int64_t samples = std::int64_t{tile_size} * tile_size * samples_per_pass;
+  const std::int64_t floats = 3 + (aovs ? PHALANX_AOV_FLOATS : 0);
+  return std::int64_t{wave_size} * bytes_per_path() + samples * floats * 4;
+}
+
+Plan make_plan(const SceneDescription &description, const Scene &scene,
+               const RenderOptions &options) {
+  Plan plan;
+  set_picture(plan, description, options);
+  plan.aovs = options.aovs;
+  plan.wave_size = pick(options.wave_size, kDefaultWaveSize);
+  plan.tile_size = pick(options.tile_size, kDefaultTileSize);
+  if (!std::has_single_bit(static_cast<unsigned>(plan.tile_size)) || plan.tile_size > 256)
+    throw InputError(fmt::format("tile size {}: a power of two up to 256 is needed", plan.tile_size));
+  if (plan.wave_size < 16 || plan.wave_size > (1 << 20))
+    throw InputError(fmt::format("wave size {}: 16 to 1048576 paths are possible", plan.wave_size));
+  plan.samples_per_pass = kSamplesPerPass;
+  plan.threads = pick(options.threads, max_threads());
+  find_uses(plan, scene);
+  choose_kernels(plan);
+  plan.columns = wave_columns(plan);
+  list_left_out(plan, scene);
+  return plan;
+}
+
+MemoryPlan plan_memory(const Plan &plan, const Scene &scene) {
+  MemoryPlan m;
+  m.scene = scene.bytes();
+  m.film = std::int64_t{plan.crop.width} * plan.crop.height * Film::bytes_per_pixel(plan.aovs);
+  m.waves = plan.wave_bytes() * plan.threads;
+  for (std::int32_t n : scene.num_prims) m.accel_estimate += n * kAccelBytesPerPrimitive;
+  return m;
+}
+
+std::string plan_text(const Plan &plan, const MemoryPlan &memory) {
+  std::string text = fmt::format("picture   {} x {}, {} samples per pixel, depth {}\n",
+                                 plan.crop.width, plan.crop.height, plan.spp, plan.frame.max_depth);
+  text += "kernels   ";
+  for (size_t i = 0; i < plan.kernels.size(); ++i)
+    text += (i == 0 ? "" : " → ") + plan.kernels[i];
+  text += fmt::format("\npath      {} bytes\n", plan.bytes_per_path());
+  for (const Column &c : plan.columns) text += fmt::format("  {:>4}  {}\n", c.bytes, c.name);
+  text += "left out\n";
+  for (const LeftOut &l : plan.left_out) {
+    text += fmt::format("        {}: {}", l.feature, l.reason);
+    if (l.bytes_per_path > 0) text += fmt::format(" (saves {} bytes per path)", l.bytes_per_path);
+    text += "\n";
+  }
+  text += fmt::format("wave      {} paths, tile {} x {}, {} threads\n", plan.wave_size,
+                      plan.tile_size, plan.tile_size, plan.threads);
+  const auto mb = [](std::int64_t bytes) { return static_cast<double>(bytes) / 1e6; };
+  text += fmt::format(
+      "memory    {:.1f} MB: scene {:.1f}, Embree about {:.1f}, film {:.1f}, waves {:.1f} ({:.2f} "
+      "a thread)\n",
+      mb(memory.total()), mb(memory.scene), mb(memory.accel_estimate), mb(memory.film),
+      mb(memory.waves), mb(plan.wave_bytes()));
+  return text;
+}
+
+}  // namespace phalanx

@@ -1,0 +1,34 @@
+// Renders a picture: tiles x passes over threads, by the schedule that was asked for.
+#pragma once
+#include <functional>
+
+#include "../film/film.h"
+#include "../plan/plan.h"
+#include "../report/stats.h"
+#include "../scene/accel.h"
+#include "../scene/scene.h"
+#include "options.h"
+
+namespace phalanx {
+
+struct Progress {
+  int spp_done = 0, spp_total = 0;   // whole passes
+  double fraction = 0;               // of all tiles x passes, in [0, 1]
+  double elapsed_s = 0;
+  std::int64_t rays = 0;
+};
+/// Called from one thread at a time, at most a few times a second. Return false to stop at the end
+/// of the running pass.
+using ProgressCallback = std::function<bool(const Progress &, const Film &)>;
+
+struct RenderResult {
+  Film film;
+  RunStats stats;
+};
+
+/// Renders `plan.frame` of `scene`. Deterministic: the film's bits depend on scene, frame, spp and
+/// ISA alone, not on threads, tile size, wave size or (but for recursive) the mode.
+RenderResult render(const Scene &scene, const Accel &accel, const Plan &plan,
+                    const RenderOptions &options, const ProgressCallback &progress = {});
+
+}  // namespace phalanx

@@ -1,0 +1,36 @@
+// What a run measured: the figures behind --report, the progress line and the benches.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "../film/film.h"
+
+namespace phalanx {
+
+/// One stage of a schedule, summed over threads. utilisation = lanes_active / lanes_total.
+struct StageStats {
+  std::string name;
+  double seconds = 0;
+  std::int64_t items = 0, lanes_active = 0, lanes_total = 0;
+};
+
+struct RayCounts {
+  std::int64_t camera = 0, bounce = 0, shadow = 0;
+  std::int64_t total() const { return camera + bounce + shadow; }
+};
+
+struct RunStats {
+  std::string mode, isa;
+  int threads = 1, ranks = 1;
+  int spp = 0;                 // done, for every pixel
+  std::string stopped_by;      // "spp", "time" or "signal"
+  double setup_s = 0;          // reading, building, Embree commit
+  double wall_s = 0, cpu_s = 0;  // rendering alone
+  RayCounts rays;
+  std::vector<StageStats> stages;
+  InvalidSamples invalid;
+  std::int64_t wave_bytes_per_thread = 0;  // everything a thread allocates beyond scene and film
+};
+
+}  // namespace phalanx

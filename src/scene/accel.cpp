@@ -1,0 +1,300 @@
+// Everything that knows Embree on the host: building, and queries of one ray.
+//
+// Meshes and quads are Embree's own geometries (ROBUST, so that nothing leaks at edges). Spheres and
+// disks are user geometry whose intersection is ours (kernels/physics/shape.h): Embree's packets
+// and single rays differ in the last bits for them, and ours is the one that shading repeats.
+#include "accel.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+
+#include "../../kernels/embree_version.h"
+#include "../../kernels/physics/shape.h"
+#include "../core/error.h"
+#include "trace.h"
+
+namespace phalanx {
+namespace {
+
+/// Embree's name for an instruction set: its kernels are pinned to the same one as ours.
+const char *embree_isa(const std::string &isa) {
+  if (isa == "avx512skx") return "avx512";
+  if (isa == "avx2") return "avx2";
+  return "sse4.2";
+}
+
+struct ErrorRecord {
+  std::atomic<bool> out_of_memory = false;
+  std::string text;
+};
+
+void on_error(void *user, RTCError code, const char *text) {
+  auto *record = static_cast<ErrorRecord *>(user);
+  if (code == RTC_ERROR_OUT_OF_MEMORY) record->out_of_memory = true;
+  if (record->text.empty()) record->text = text ? text : "unknown error";
+}
+
+bool on_memory(void *user, ssize_t bytes, bool) {
+  *static_cast<std::atomic<std::int64_t> *>(user) += bytes;
+  return true;
+}
+
+// ---- spheres and disks ------------------------------------------------------------------------
+
+/// What the callbacks of one geometry need.
+struct AnalyticShapes {
+  const Sphere *spheres = nullptr;  // one of the two
+  const Disk *disks = nullptr;
+
+  ShapeHit intersect(unsigned id, Vec3 o, Vec3 d, float t_min, float t_max) const {
+    if (spheres != nullptr) return intersect_sphere(o, d, spheres[id], t_min, t_max);
+    return intersect_disk(o, d, disks[id], t_min, t_max);
+  }
+};
+
+void analytic_bounds(const RTCBoundsFunctionArguments *args) {
+  const auto *shapes = static_cast<const AnalyticShapes *>(args->geometryUserPtr);
+  RTCBounds *b = args->bounds_o;
+  Vec3 c, r;
+  if (shapes->spheres != nullptr) {
+    const Sphere s = shapes->spheres[args->primID];
+    c = s.center;
+    r = {s.radius, s.radius, s.radius};
+  } else {
+    // The box of a disk: half width sqrt(u^2 + v^2) along each axis.
+    const Disk d = shapes->disks[args->primID];
+    c = d.center;
+    r = {square_root(d.axis_u.x * d.axis_u.x + d.axis_v.x * d.axis_v.x),
+         square_root(d.axis_u.y * d.axis_u.y + d.axis_v.y * d.axis_v.y),
+         square_root(d.axis_u.z * d.axis_u.z + d.axis_v.z * d.axis_v.z)};
+  }
+  // Wider by a few roundings, so that a hit never lies outside its box.
+  const Vec3 slack = (abs3(c) + r) * 1e-6f;
+  b->lower_x = c.x - r.x - slack.x;
+  b->lower_y = c.y - r.y - slack.y;
+  b->lower_z = c.z - r.z - slack.z;
+  b->upper_x = c.x + r.x + slack.x;
+  b->upper_y = c.y + r.y + slack.y;
+  b->upper_z = c.z + r.z + slack.z;
+}
+
+struct RayRead {
+  Vec3 origin, direction;
+};
+RayRead read_ray(RTCRayN *ray, unsigned n, unsigned i) {
+  return {{RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i)},
+          {RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i)}};
+}
+
+void analytic_intersect(const RTCIntersectFunctionNArguments *args) {
+  const auto *shapes = static_cast<const AnalyticShapes *>(args->geometryUserPtr);
+  RTCRayN *ray = RTCRayHitN_RayN(args->rayhit, args->N);
+  RTCHitN *hit = RTCRayHitN_HitN(args->rayhit, args->N);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    const RayRead r = read_ray(ray, args->N, i);
+    const ShapeHit found = shapes->intersect(args->primID, r.origin, r.direction,
+                                             RTCRayN_tnear(ray, args->N, i),
+                                             RTCRayN_tfar(ray, args->N, i));
+    if (found.t < 0) continue;
+    RTCRayN_tfar(ray, args->N, i) = found.t;
+    RTCHitN_u(hit, args->N, i) = static_cast<float>(found.far_root);
+    RTCHitN_v(hit, args->N, i) = 0;
+    RTCHitN_geomID(hit, args->N, i) = args->geomID;
+    RTCHitN_primID(hit, args->N, i) = args->primID;
+    RTCHitN_instID(hit, args->N, i, 0) = args->context->instID[0];
+  }
+}
+
+void analytic_occluded(const RTCOccludedFunctionNArguments *args) {
+  const auto *shapes = static_cast<const AnalyticShapes *>(args->geometryUserPtr);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    const RayRead r = read_ray(args->ray, args->N, i);
+    const ShapeHit found = shapes->intersect(args->primID, r.origin, r.direction,
+                                             RTCRayN_tnear(args->ray, args->N, i),
+                                             RTCRayN_tfar(args->ray, args->N, i));
+    if (found.t >= 0) RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
+  }
+}
+
+}  // namespace
+
+// ---- building ---------------------------------------------------------------------------------
+
+struct Accel::State {
+  ErrorRecord error;
+  std::atomic<std::int64_t> bytes = 0;
+  RTCDevice device = nullptr;
+  std::vector<RTCScene> scenes;  // groups first, top level last
+  std::vector<std::unique_ptr<AnalyticShapes>> analytic;
+
+  ~State() {
+    for (RTCScene s : scenes) rtcReleaseScene(s);
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+
+  void check() const {
+    if (error.out_of_memory) throw MemoryError("Embree ran out of memory building the scene");
+    if (!error.text.empty()) throw std::runtime_error("Embree: " + error.text);
+  }
+
+  RTCScene new_scene() {
+    RTCScene s = rtcNewScene(device);
+    scenes.push_back(s);
+    rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(s, RTC_BUILD_QUALITY_MEDIUM);
+    return s;
+  }
+
+  void attach(RTCScene target, RTCGeometry geometry, unsigned id) {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(target, geometry, id);
+    rtcReleaseGeometry(geometry);
+  }
+
+  RTCGeometry mesh(const Scene &scene, std::int32_t g) {
+    RTCGeometry m = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(m, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               scene.positions.data(), 0, 3 * sizeof(float),
+                               static_cast<size_t>(scene.num_vertices()));
+    rtcSetSharedGeometryBuffer(m, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               scene.triangles.data() + scene.geometries[g].first, 0,
+                               sizeof(Triangle), static_cast<size_t>(scene.num_prims[g]));
+    return m;
+  }
+
+  RTCGeometry quads(const Scene &scene, std::int32_t g) {
+    const auto n = static_cast<size_t>(scene.num_prims[g]);
+    RTCGeometry m = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+    auto *corner = static_cast<float *>(rtcSetNewGeometryBuffer(
+        m, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 4 * n));
+    auto *index = static_cast<unsigned *>(rtcSetNewGeometryBuffer(
+        m, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(unsigned), n));
+    if (corner == nullptr || index == nullptr) return m;
+    for (size_t i = 0; i < n; ++i) {
+      const Quad q = scene.quads[static_cast<size_t>(scene.geometries[g].first) + i];
+      const Vec3 corners[] = {q.corner, q.corner + q.edge_u, q.corner + q.edge_u + q.edge_v,
+                              q.corner + q.edge_v};
+      for (size_t c = 0; c < 4; ++c) {
+        corner[12 * i + 3 * c] = corners[c].x;
+        corner[12 * i + 3 * c + 1] = corners[c].y;
+        corner[12 * i + 3 * c + 2] = corners[c].z;
+        index[4 * i + c] = static_cast<unsigned>(4 * i + c);
+      }
+    }
+    return m;
+  }
+
+  RTCGeometry analytic_shapes(const Scene &scene, std::int32_t g) {
+    const Geometry &record = scene.geometries[g];
+    auto shapes = std::make_unique<AnalyticShapes>();
+    if (record.shape == kSpheres) shapes->spheres = scene.spheres.data() + record.first;
+    else shapes->disks = scene.disks.data() + record.first;
+    RTCGeometry u = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(u, static_cast<unsigned>(scene.num_prims[g]));
+    rtcSetGeometryUserData(u, shapes.get());
+    rtcSetGeometryBoundsFunction(u, analytic_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(u, analytic_intersect);
+    rtcSetGeometryOccludedFunction(u, analytic_occluded);
+    analytic.push_back(std::move(shapes));
+    return u;
+  }
+
+  void attach_range(RTCScene target, const Scene &scene, GeometryRange range) {
+    for (std::int32_t i = 0; i < range.count; ++i) {
+      const std::int32_t g = range.first + i;
+      const int shape = scene.geometries[g].shape;
+      RTCGeometry geometry = shape == kMesh    ? mesh(scene, g)
+                             : shape == kQuads ? quads(scene, g)
+                                               : analytic_shapes(scene, g);
+      attach(target, geometry, static_cast<unsigned>(i));
+    }
+  }
+
+  void attach_instances(RTCScene top, const Scene &scene) {
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+      RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+      rtcSetGeometryInstancedScene(instance, scenes[static_cast<size_t>(scene.instance_group[i])]);
+      rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR,
+                              &scene.instances[i].to_world);
+      attach(top, instance, static_cast<unsigned>(scene.top_level.count) + static_cast<unsigned>(i));
+    }
+  }
+};
+
+Accel::Accel(const Scene &scene, const std::string &isa, int threads)
+    : state_(std::make_unique<State>()) {
+  const std::string config = fmt::format("isa={},threads={}", embree_isa(isa), threads);
+  state_->device = rtcNewDevice(config.c_str());
+  if (state_->device == nullptr) throw std::runtime_error("Embree cannot start with " + config);
+  rtcSetDeviceErrorFunction(state_->device, on_error, &state_->error);
+  rtcSetDeviceMemoryMonitorFunction(state_->device, on_memory, &state_->bytes);
+  for (const GeometryRange &group : scene.groups) {
+    RTCScene s = state_->new_scene();
+    state_->attach_range(s, scene, group);
+    rtcCommitScene(s);
+    state_->check();
+  }
+  RTCScene top = state_->new_scene();
+  state_->attach_range(top, scene, scene.top_level);
+  state_->attach_instances(top, scene);
+  rtcCommitScene(top);
+  state_->check();
+}
+
+Accel::~Accel() = default;
+
+void *Accel::handle() const { return state_->scenes.back(); }
+
+std::int64_t Accel::bytes() const { return state_->bytes; }
+
+std::string Accel::library_version() { return "Embree " RTC_VERSION_STRING; }
+
+// ---- queries of one ray -----------------------------------------------------------------------
+
+namespace {
+void set_ray(RTCRay &r, Vec3 origin, Vec3 direction, float t_far) {
+  r.org_x = origin.x;
+  r.org_y = origin.y;
+  r.org_z = origin.z;
+  r.tnear = 0;
+  r.dir_x = direction.x;
+  r.dir_y = direction.y;
+  r.dir_z = direction.z;
+  r.time = 0;
+  r.tfar = t_far;
+  r.mask = ~0u;
+  r.id = 0;
+  r.flags = 0;
+}
+}  // namespace
+
+Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction) {
+  RTCRayHit r;
+  set_ray(r.ray, origin, direction, PHALANX_FAR);
+  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  phalanx_intersect(scene.accel, &r, false);
+  Hit hit;
+  hit.geometry = static_cast<int32>(r.hit.geomID);
+  hit.primitive = static_cast<int32>(r.hit.primID);
+  hit.instance = -1;
+  hit.u = r.hit.u;
+  hit.v = r.hit.v;
+  if (hit.geometry >= 0 && r.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
+    hit.instance = static_cast<int32>(r.hit.instID[0]) - scene.num_top_geometries;
+    hit.geometry += scene.instances[hit.instance].first_geometry;
+  }
+  return hit;
+}
+
+bool trace_occluded(const SceneView &scene, Vec3 origin, Vec3 direction, float distance) {
+  RTCRay r;
+  set_ray(r, origin, direction, distance);
+  phalanx_occluded(scene.accel, &r, false);
+  return r.tfar < 0;
+}
+
+}  // namespace phalanx

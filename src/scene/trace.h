@@ -1,0 +1,12 @@
+// Ray queries one at a time, for the scalar schedules. Implemented beside Accel.
+#pragma once
+#include "../../kernels/physics/surface.h"
+
+namespace phalanx {
+
+/// Closest hit in (0, infinity); hit.geometry is -1 where there is none.
+Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction);
+/// True where something lies between origin and origin + distance * direction.
+bool trace_occluded(const SceneView &scene, Vec3 origin, Vec3 direction, float distance);
+
+}  // namespace phalanx

@@ -1,0 +1,51 @@
+#include "isa.h"
+
+#include <fmt/format.h>
+
+#include "../core/error.h"
+
+namespace phalanx {
+
+std::vector<std::string> known_isas() { return {"sse4", "avx2", "avx512skx"}; }
+
+bool isa_supported(const std::string &isa) {
+  if (isa == "sse4") return __builtin_cpu_supports("sse4.2");
+  if (isa == "avx2") return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (isa == "avx512skx") {
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512cd");
+  }
+  return false;
+}
+
+std::string best_isa() {
+  std::string best;
+  for (const std::string &isa : known_isas())
+    if (isa_supported(isa)) best = isa;
+  if (best.empty())
+    throw InputError("this processor lacks SSE4.2; Phalanx needs an x86-64 processor with it");
+  return best;
+}
+
+std::string resolve_isa(const std::string &wanted) {
+  if (wanted.empty()) return best_isa();
+  std::string names;
+  for (const std::string &isa : known_isas()) {
+    if (isa == wanted) {
+      if (isa_supported(isa)) return isa;
+      throw InputError(fmt::format("--isa {}: this processor does not have it; it can run {}",
+                                   wanted, best_isa()));
+    }
+    names += names.empty() ? isa : ", " + isa;
+  }
+  throw InputError(fmt::format("--isa {}: not known; known are {}", wanted, names));
+}
+
+const Kernels &kernels_for(const std::string &isa) {
+  if (isa == "avx512skx") return kernels_avx512skx();
+  if (isa == "avx2") return kernels_avx2();
+  return kernels_sse4();
+}
+
+}  // namespace phalanx

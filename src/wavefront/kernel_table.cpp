@@ -1,0 +1,67 @@
+// Fills the table of one instruction set (PHALANX_ISA) from the headers that ISPC generates, so that
+// the compiler checks every signature.
+#include "kernels.h"
+#include "../reference/schedules.h"
+
+// The generated headers repeat the shared structs in namespace ispc; ours take their place.
+#define __ISPC_STRUCT_Vec2__
+#define __ISPC_STRUCT_Vec3__
+#define __ISPC_STRUCT_Affine__
+#define __ISPC_STRUCT_Material__
+#define __ISPC_STRUCT_Geometry__
+#define __ISPC_STRUCT_Triangle__
+#define __ISPC_STRUCT_Quad__
+#define __ISPC_STRUCT_Sphere__
+#define __ISPC_STRUCT_Disk__
+#define __ISPC_STRUCT_Instance__
+#define __ISPC_STRUCT_Light__
+#define __ISPC_STRUCT_SceneView__
+#define __ISPC_STRUCT_Camera__
+#define __ISPC_STRUCT_FrameView__
+#define __ISPC_STRUCT_WaveView__
+#define __ISPC_STRUCT_TileView__
+namespace ispc {
+using phalanx::FrameView;
+using phalanx::SceneView;
+using phalanx::TileView;
+using phalanx::WaveView;
+}  // namespace ispc
+
+#include "aov_ispc.h"
+#include "bucket_ispc.h"
+#include "compact_ispc.h"
+#include "generate_ispc.h"
+#include "intersect_ispc.h"
+#include "megakernel_ispc.h"
+#include "shade_ispc.h"
+#include "shadow_ispc.h"
+
+#define PHALANX_CAT2(a, b) a##_##b
+#define PHALANX_CAT(a, b) PHALANX_CAT2(a, b)
+#define KERNEL(name) ispc::PHALANX_CAT(name, PHALANX_ISA)
+#define PHALANX_STRING2(a) #a
+#define PHALANX_STRING(a) PHALANX_STRING2(a)
+
+namespace phalanx {
+
+const Kernels &PHALANX_CAT(kernels, PHALANX_ISA)() {
+  static const Kernels table = {
+      PHALANX_STRING(PHALANX_ISA),
+      PHALANX_WIDTH,
+      KERNEL(generate),
+      KERNEL(intersect),
+      KERNEL(aov),
+      KERNEL(bucket),
+      {KERNEL(shade_diffuse), KERNEL(shade_mirror), KERNEL(shade_dielectric),
+       KERNEL(shade_conductor), KERNEL(shade_black)},
+      KERNEL(shade_escaped),
+      KERNEL(shadow),
+      KERNEL(compact),
+      KERNEL(megakernel),
+      PHALANX_CAT(render_depth_first, PHALANX_ISA),
+      PHALANX_CAT(render_recursive, PHALANX_ISA),
+  };
+  return table;
+}
+
+}  // namespace phalanx
