@@ -61,7 +61,8 @@ void set_picture(Plan &plan, const SceneDescription &d, const RenderOptions &o) 
 void find_uses(Plan &plan, const Scene &scene) {
   for (const Geometry &g : scene.geometries) {
     plan.material_kinds[scene.materials[static_cast<size_t>(g.material)].kind] = true;
-    plan.spheres_or_disks |= g.shape == kSpheres || g.shape == kDisks;
+    plan.spheres |= g.shape == kSpheres;
+    plan.disks |= g.shape == kDisks;
   }
   plan.sample_lights = !scene.lights.empty() && plan.frame.max_depth > 0 &&
                        (plan.material_kinds[kDiffuse] || plan.material_kinds[kConductor]);
@@ -86,6 +87,7 @@ int bytes_without(const Plan &plan, bool Plan::*feature) {
   with.wave_size = plan.wave_size;
   with.sample_lights = plan.sample_lights;
   with.instances = plan.instances;
+  with.spheres = plan.spheres;
   const auto bytes = [](const Plan &p) {
     int sum = 0;
     for (const Column &c : wave_columns(p)) sum += c.bytes;
@@ -108,8 +110,10 @@ void list_left_out(Plan &plan, const Scene &scene) {
     plan.left_out.push_back({"instances", "none in the scene", bytes_without(plan, &Plan::instances)});
   if (!plan.environment) plan.left_out.push_back({"environment", "the scene has none", 0});
   if (!plan.aovs) plan.left_out.push_back({"albedo, normal, depth", "not asked for", 0});
-  if (!plan.spheres_or_disks)
-    plan.left_out.push_back({"analytic spheres and disks", "none in the scene", 0});
+  if (!plan.spheres)
+    plan.left_out.push_back({"analytic spheres", "none in the scene",
+                             bytes_without(plan, &Plan::spheres)});
+  if (!plan.disks) plan.left_out.push_back({"analytic disks", "none in the scene", 0});
   for (int kind = 0; kind < kNumMaterialKinds; ++kind)
     if (!plan.material_kinds[kind])
       plan.left_out.push_back({fmt::format("shade_{}", kind_name(kind)), "no such material", 0});

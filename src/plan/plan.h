@@ -39,7 +39,7 @@ struct Plan {
   bool instances = false;
   bool environment = false;
   bool aovs = false;
-  bool spheres_or_disks = false;        // Embree user geometry
+  bool spheres = false, disks = false;  // analytic: Embree user geometry
   // What follows from that.
   std::vector<std::string> kernels;     // in the order of the main loop
   std::vector<Column> columns;          // of the wave

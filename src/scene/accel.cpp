@@ -281,8 +281,7 @@ Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction) {
   hit.geometry = static_cast<int32>(r.hit.geomID);
   hit.primitive = static_cast<int32>(r.hit.primID);
   hit.instance = -1;
-  hit.u = r.hit.u;
-  hit.v = r.hit.v;
+  hit.far_root = scene.num_spheres > 0 && r.hit.u >= 1 ? 1 : 0;
   if (hit.geometry >= 0 && r.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
     hit.instance = static_cast<int32>(r.hit.instID[0]) - scene.num_top_geometries;
     hit.geometry += scene.instances[hit.instance].first_geometry;

@@ -15,7 +15,8 @@ void for_each_column(const Plan &plan, WaveView &w, const Visit &visit) {
         w.direction_z);
   visit("throughput, pdf", true, w.throughput_r, w.throughput_g, w.throughput_b, w.pdf);
   visit("depth, sampler, sample", true, w.depth, w.scramble, w.block_index);
-  visit("hit", true, w.hit_geometry, w.hit_primitive, w.hit_u, w.hit_v);
+  visit("hit", true, w.hit_geometry, w.hit_primitive);
+  visit("sphere root", plan.spheres, w.hit_far_root);
   visit("instance", plan.instances, w.hit_instance);
   visit("shadow ray", plan.sample_lights, w.shadow_origin_x, w.shadow_origin_y, w.shadow_origin_z,
         w.shadow_direction_x, w.shadow_direction_y, w.shadow_direction_z, w.shadow_distance,

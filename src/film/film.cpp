@@ -1,0 +1,120 @@
+// Running mean and variance of every pixel, by Welford's recurrence.
+//
+// One sample at a time: the rounding of a pixel is then a function of its samples in their order and
+// of nothing else. Merging whole passes (Chan et al. 1979) would be a little faster, but a picture
+// of 64 + 64 samples would differ in its last bits from one of 128.
+#include "film.h"
+
+#include <cassert>
+#include <limits>
+#include <tuple>
+
+namespace phalanx {
+
+void InvalidSamples::add(int pixel_x, int pixel_y, std::int64_t sample_number) {
+  merge({1, pixel_x, pixel_y, sample_number});
+}
+
+void InvalidSamples::merge(const InvalidSamples &other) {
+  if (other.count == 0) return;
+  const bool other_is_earlier =
+      count == 0 || std::tie(other.sample, other.y, other.x) < std::tie(sample, y, x);
+  if (other_is_earlier) {
+    x = other.x;
+    y = other.y;
+    sample = other.sample;
+  }
+  count += other.count;
+}
+
+Film::Film(Rect crop, bool with_aovs)
+    : crop_(crop), moments_(num_pixels()), counts_(num_pixels(), 0) {
+  if (with_aovs) first_hits_.resize(num_pixels());
+}
+
+std::int64_t Film::bytes_per_pixel(bool with_aovs) {
+  return sizeof(Moments) + sizeof(std::int64_t) + (with_aovs ? sizeof(FirstHit) : 0);
+}
+
+std::int64_t Film::index(int x, int y) const {
+  assert(x >= crop_.x && x < crop_.x + crop_.width && y >= crop_.y && y < crop_.y + crop_.height);
+  return std::int64_t{y - crop_.y} * crop_.width + (x - crop_.x);
+}
+
+void Film::add_samples(int x, int y, const float *samples, int count, std::int64_t first_sample,
+                       InvalidSamples &invalid) {
+  const std::int64_t pixel = index(x, y);
+  Moments moments = moments_[pixel];  // a local copy stays in registers
+  std::int64_t n = counts_[pixel];
+  for (int i = 0; i < count; i++) {
+    const float *sample = samples + 3 * std::int64_t{i};
+    if (!is_finite(sample[0]) || !is_finite(sample[1]) || !is_finite(sample[2])) {
+      invalid.add(x, y, first_sample + i);
+      continue;
+    }
+    n++;
+    const double weight = 1.0 / static_cast<double>(n);
+    for (int c = 0; c < 3; c++) {
+      const double value = double{sample[c]};
+      const double from_old_mean = value - moments.mean[c];
+      moments.mean[c] += from_old_mean * weight;
+      moments.m2[c] += from_old_mean * (value - moments.mean[c]);
+    }
+  }
+  moments_[pixel] = moments;
+  counts_[pixel] = n;
+}
+
+void Film::add_aovs(int x, int y, const float *records, int count) {
+  assert(has_aovs());
+  FirstHit &sum = first_hits_[index(x, y)];
+  for (int i = 0; i < count; i++) {
+    const float *record = records + 7 * std::int64_t{i};
+    bool finite = true;
+    for (int k = 0; k < 7; k++) finite = finite && is_finite(record[k]);
+    if (!finite) continue;
+    for (int c = 0; c < 3; c++) {
+      sum.albedo[c] += double{record[c]};
+      sum.normal[c] += double{record[3 + c]};
+    }
+    sum.depth += double{record[6]};
+    sum.hits += record[6] > 0 ? 1 : 0;
+    sum.count++;
+  }
+}
+
+namespace {
+
+Vec3 scaled(const double v[3], double s) {
+  return vec3(static_cast<float>(v[0] * s), static_cast<float>(v[1] * s),
+              static_cast<float>(v[2] * s));
+}
+
+double one_over(std::int64_t n) { return n > 0 ? 1.0 / static_cast<double>(n) : 0.0; }
+
+}  // namespace
+
+Vec3 Film::mean(std::int64_t pixel) const { return scaled(moments_[pixel].mean, 1.0); }
+
+Vec3 Film::variance_of_mean(std::int64_t pixel) const {
+  const std::int64_t n = counts_[pixel];
+  if (n < 2) {
+    const float unknown = std::numeric_limits<float>::infinity();
+    return vec3(unknown, unknown, unknown);
+  }
+  return scaled(moments_[pixel].m2, one_over(n) * one_over(n - 1));
+}
+
+Vec3 Film::albedo(std::int64_t pixel) const {
+  return scaled(first_hits_[pixel].albedo, one_over(first_hits_[pixel].count));
+}
+
+Vec3 Film::normal(std::int64_t pixel) const {
+  return scaled(first_hits_[pixel].normal, one_over(first_hits_[pixel].count));
+}
+
+float Film::depth(std::int64_t pixel) const {
+  return static_cast<float>(first_hits_[pixel].depth * one_over(first_hits_[pixel].hits));
+}
+
+}  // namespace phalanx

@@ -1,0 +1,239 @@
+// The sampler: every pair is a randomised net, and pairs, pixels and seeds know nothing of each other.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <unordered_set>
+#include <vector>
+
+#include "../../kernels/physics/rng.h"
+#include "support/statistics.h"
+
+using namespace phalanx;
+using namespace phalanx::test;
+
+namespace {
+
+/// True if the 2^m samples from `first` have exactly one point in every elementary interval of area
+/// 2^-m, whatever its shape.
+bool is_net(uint32 scramble, int dimension, int first, int m) {
+  std::vector<Vec2> points;
+  for (int i = 0; i < 1 << m; ++i)
+    points.push_back(sample_pair(kSobolSampler, scramble, first + i, dimension));
+  std::vector<char> taken(points.size());
+  for (int k = 0; k <= m; ++k) {
+    std::fill(taken.begin(), taken.end(), 0);
+    for (const Vec2 p : points) {
+      const int column = static_cast<int>(std::ldexp(p.x, k));
+      const int row = static_cast<int>(std::ldexp(p.y, m - k));
+      char &cell = taken[static_cast<std::size_t>(column << (m - k) | row)];
+      if (cell != 0) return false;
+      cell = 1;
+    }
+  }
+  return true;
+}
+
+double chi_square_of(const std::vector<Vec2> &points, int cells) {
+  Histogram histogram({cells, cells, 0, 1, 0, 1});
+  for (const Vec2 p : points) histogram.add(static_cast<double>(p.x), static_cast<double>(p.y));
+  const std::vector<double> masses(static_cast<std::size_t>(cells * cells), 1.0 / (cells * cells));
+  return chi_square_fit(histogram, masses).p;
+}
+
+/// Correlation of two columns times sqrt(n): standard normal if they are independent.
+double scaled_correlation(const std::vector<float> &a, const std::vector<float> &b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += 12 * (static_cast<double>(a[i]) - 0.5) * (static_cast<double>(b[i]) - 0.5);
+  return sum / std::sqrt(static_cast<double>(a.size()));
+}
+
+struct Columns {
+  std::vector<float> x, y;
+};
+Columns columns(int sampler, uint32 scramble, int dimension, int n) {
+  Columns c;
+  for (int i = 0; i < n; ++i) {
+    const Vec2 u = sample_pair(sampler, scramble, i, dimension);
+    c.x.push_back(u.x);
+    c.y.push_back(u.y);
+  }
+  return c;
+}
+
+/// Checks that the values of `z`, each standard normal if all is well, look so together.
+void check_standard_normal(const std::vector<double> &z) {
+  Mean squares;
+  double worst = 0;
+  for (const double value : z) {
+    squares.add(value * value);
+    worst = std::max(worst, std::fabs(value));
+  }
+  CHECK(normal_two_sided(worst) > sidak(1e-3, static_cast<int>(z.size())));
+  CHECK(squares.mean() < 1 + 4 * std::sqrt(2.0 / static_cast<double>(z.size())));
+}
+
+}  // namespace
+
+TEST_CASE("rng: hash32 is a permutation with avalanche, reverse_bits an involution") {
+  std::unordered_set<uint32> seen;
+  for (uint32 i = 0; i < 1000000; ++i) seen.insert(hash32(i));
+  CHECK(seen.size() == 1000000);
+  for (int bit = 0; bit < 32; ++bit) {
+    double flipped = 0;
+    for (uint32 i = 0; i < 10000; ++i)
+      flipped += __builtin_popcount(hash32(i * 977u) ^ hash32((i * 977u) ^ (1u << bit)));
+    CHECK(flipped / 10000 == doctest::Approx(16).epsilon(0.02));
+  }
+  for (uint32 i = 0; i < 1000; ++i) CHECK(reverse_bits(reverse_bits(hash32(i))) == hash32(i));
+  CHECK(reverse_bits(1) == 0x80000000u);
+  CHECK(reverse_bits(0x0000f00du) == 0xb00f0000u);
+}
+
+TEST_CASE("rng: scramble_reversed is an Owen scramble: low bits do not see high ones") {
+  for (uint32 seed = 1; seed < 200; ++seed) {
+    const uint32 x = hash32(seed), s = hash32(seed + 1000);
+    for (int bit = 0; bit < 32; ++bit) {
+      const uint32 below = (1u << bit) - 1;
+      const uint32 change = scramble_reversed(x, s) ^ scramble_reversed(x ^ (1u << bit), s);
+      REQUIRE((change & below) == 0);
+      REQUIRE((change & (1u << bit)) != 0);  // a permutation of every bit
+    }
+  }
+}
+
+TEST_CASE("rng: the second Sobol dimension is Pascal's matrix") {
+  for (uint32 i = 0; i < 32; ++i) {
+    uint32 column = 0;  // Bit r of column i: binomial(i, r) mod 2, by Lucas' theorem.
+    for (uint32 r = 0; r <= i; ++r)
+      if ((i & r) == r) column |= 1u << r;
+    CHECK(sobol_second_reversed(1u << i) == column);
+  }
+}
+
+TEST_CASE("rng: unit_float is in [0, 1)") {
+  CHECK(unit_float(0) == 0.0f);
+  CHECK(unit_float(0xffffffffu) == 1.0f - 0x1p-24f);
+  CHECK(unit_float(0x80000000u) == 0.5f);
+}
+
+TEST_CASE("rng: uniforms are in [0, 1) for every sampler, with the moments of the square") {
+  for (const int sampler : {kSobolSampler, kIndependentSampler}) {
+    Mean x, y, xx, xy;
+    float least = 1, most = 0;
+    for (int i = 0; i < 1 << 20; ++i) {
+      const Vec2 u = sample_pair(sampler, pixel_scramble(i & 255, i >> 8 & 255, 3), i >> 16, i & 7);
+      least = std::min({least, u.x, u.y});
+      most = std::max({most, u.x, u.y});
+      const double a = static_cast<double>(u.x), b = static_cast<double>(u.y);
+      x.add(a), y.add(b), xx.add(a * a), xy.add(a * b);
+    }
+    CHECK(least >= 0.0f);
+    CHECK(most < 1.0f);
+    CHECK(x.p(0.5) > alpha());
+    CHECK(y.p(0.5) > alpha());
+    CHECK(xx.p(1.0 / 3) > alpha());
+    CHECK(xy.p(0.25) > alpha());
+  }
+}
+
+TEST_CASE("sobol: aligned blocks of 2^m samples are (0,m,2)-nets, m <= 10") {
+  for (const int dimension : {0, 1, 2, 5, 6, 17, 61})
+    for (int pixel = 0; pixel < 6; ++pixel)
+      for (int m = 0; m <= 10; ++m)
+        for (const int block : {0, 1, 2, 3, 7, 1000}) {
+          CAPTURE(dimension);
+          CAPTURE(m);
+          CAPTURE(block);
+          REQUIRE(is_net(pixel_scramble(pixel, 3 * pixel, 42), dimension, block << m, m));
+        }
+}
+
+TEST_CASE("sobol: nets of up to 2^16 samples, and late in the sequence") {
+  for (int m = 11; m <= 16; ++m) CHECK(is_net(pixel_scramble(5, 9, 0), 3, 0, m));
+  CHECK(is_net(pixel_scramble(5, 9, 0), 3, (1 << 30) + (5 << 12), 12));
+}
+
+TEST_CASE("rng: samples of a block differ between pixels, dimensions and seeds") {
+  std::set<std::pair<float, float>> seen;
+  for (int i = 0; i < 4096; ++i) {
+    const Vec2 u = sample_pair(kSobolSampler, pixel_scramble(i & 15, i >> 4 & 15, i >> 8 & 3), 0,
+                               i >> 10);
+    seen.insert({u.x, u.y});
+  }
+  CHECK(seen.size() == 4096);
+}
+
+TEST_CASE("rng: first samples of pixels, dimensions and seeds are uniform") {
+  for (const int sampler : {kSobolSampler, kIndependentSampler}) {
+    std::vector<Vec2> pixels, dimensions, seeds;
+    for (int i = 0; i < 1 << 18; ++i) {
+      pixels.push_back(sample_pair(sampler, pixel_scramble(i & 511, i >> 9, 0), 0, 2));
+      dimensions.push_back(sample_pair(sampler, pixel_scramble(1, 2, 3), 5, i));
+      seeds.push_back(sample_pair(sampler, pixel_scramble(100, 50, i), 0, 0));
+    }
+    CHECK(chi_square_of(pixels, 32) > alpha());
+    CHECK(chi_square_of(dimensions, 32) > alpha());
+    CHECK(chi_square_of(seeds, 32) > alpha());
+  }
+}
+
+TEST_CASE("independent: samples of one pixel are uniform") {
+  for (int dimension = 0; dimension < 8; ++dimension) {
+    std::vector<Vec2> points;
+    for (int i = 0; i < 1 << 18; ++i)
+      points.push_back(sample_pair(kIndependentSampler, pixel_scramble(7, 8, 9), i, dimension));
+    CHECK(chi_square_of(points, 32) > alpha());
+  }
+}
+
+TEST_CASE("rng: pairs of dimensions are uncorrelated") {
+  for (const int sampler : {kSobolSampler, kIndependentSampler}) {
+    std::vector<double> z;
+    for (int pixel = 0; pixel < 20; ++pixel) {
+      std::vector<Columns> c;
+      for (int d = 0; d < 12; ++d)
+        c.push_back(columns(sampler, pixel_scramble(pixel, 1, 0), d, 1024));
+      for (std::size_t a = 0; a < c.size(); ++a)
+        for (std::size_t b = a + 1; b < c.size(); ++b) {
+          z.push_back(scaled_correlation(c[a].x, c[b].x));
+          z.push_back(scaled_correlation(c[a].x, c[b].y));
+          z.push_back(scaled_correlation(c[a].y, c[b].y));
+        }
+    }
+    CAPTURE(sampler);
+    check_standard_normal(z);
+  }
+}
+
+TEST_CASE("rng: neighbouring pixels are uncorrelated") {
+  for (const int sampler : {kSobolSampler, kIndependentSampler}) {
+    std::vector<double> z;
+    for (int dimension = 0; dimension < 6; ++dimension)
+      for (int x = 0; x < 40; ++x)
+        for (int y = 0; y < 10; ++y) {
+          const Columns a = columns(sampler, pixel_scramble(x, y, 0), dimension, 256);
+          const Columns b = columns(sampler, pixel_scramble(x + 1, y, 0), dimension, 256);
+          const Columns c = columns(sampler, pixel_scramble(x, y + 1, 0), dimension, 256);
+          z.push_back(scaled_correlation(a.x, b.x));
+          z.push_back(scaled_correlation(a.y, c.y));
+          z.push_back(scaled_correlation(a.x, c.y));
+        }
+    CAPTURE(sampler);
+    check_standard_normal(z);
+  }
+}
+
+TEST_CASE("rng: pixels of a picture have scrambles of their own, but for chance") {
+  // n random 32-bit numbers collide n^2 / 2^33 times.
+  std::unordered_set<uint32> seen;
+  const int size = 1024;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) seen.insert(pixel_scramble(x, y, 1));
+  const double collisions = static_cast<double>(size) * size - static_cast<double>(seen.size());
+  const double expected = std::pow(size, 4) / std::pow(2, 33);
+  MESSAGE("collisions " << collisions << ", expected " << expected);
+  CHECK(collisions < expected + 5 * std::sqrt(expected));
+}
