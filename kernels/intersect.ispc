@@ -13,8 +13,7 @@ export void KERNEL(intersect)(const uniform SceneView &scene, const uniform Wave
                       coherent != 0);
     put(wave.hit_geometry, g, hit.geometry);
     put(wave.hit_primitive, g, hit.primitive);
-    put(wave.hit_u, g, hit.u);
-    put(wave.hit_v, g, hit.v);
+    if (scene.num_spheres > 0) put(wave.hit_far_root, g, hit.far_root);
     if (scene.num_instances > 0) put(wave.hit_instance, g, hit.instance);
   }
 }

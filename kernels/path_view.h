@@ -21,7 +21,7 @@ struct WaveView {
   // Hits; written by intersect.
   UNI int32 *UNI hit_geometry, *UNI hit_primitive;
   UNI int32 *UNI hit_instance;     // only with instances
-  UNI float *UNI hit_u, *UNI hit_v;
+  UNI int32 *UNI hit_far_root;     // only with spheres
   // Shadow rays, in the slot of their path; only with lights. Written by shade.
   UNI float *UNI shadow_origin_x, *UNI shadow_origin_y, *UNI shadow_origin_z;
   UNI float *UNI shadow_direction_x, *UNI shadow_direction_y, *UNI shadow_direction_z;

@@ -107,7 +107,7 @@ struct SceneView {
   const UNI Light *UNI lights;            // [num_lights]
   const UNI float *UNI alias_threshold;   // [num_lights] Walker's alias table over select_pdf
   const UNI int32 *UNI alias_other;       // [num_lights]
-  int32 num_materials, num_geometries, num_lights, num_instances;
+  int32 num_materials, num_geometries, num_lights, num_instances, num_spheres;
   int32 num_top_geometries;  // Embree ids below this are geometries, from it on instances
   int32 has_environment;     // 0: rays that leave the scene bring nothing
   Vec3 environment;          // constant radiance from all directions

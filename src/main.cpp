@@ -1,10 +1,13 @@
 // The program: reads the command line, runs one command, turns what went wrong into an exit code.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <new>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/text.h"
@@ -27,6 +30,15 @@ int bad_command_line(const CLI::App &app, const CLI::ParseError &error) {
   return kExitBadInput;
 }
 
+/// CLI11 would only say that a command is missing.
+void check_command(const CLI::App &app, const std::string &word) {
+  std::vector<std::string> names;
+  for (const CLI::App *command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (word.starts_with('-') || std::find(names.begin(), names.end(), word) != names.end()) return;
+  throw InputError(
+      fmt::format("unknown command \"{}\"; commands are {}", word, fmt::join(names, ", ")));
+}
+
 int run(int argc, char **argv) {
   int exit_code = kExitDone;
   CLI::App app("Phalanx, a wavefront path tracer", "phalanx");
@@ -37,6 +49,7 @@ int run(int argc, char **argv) {
   add_plan_command(app, exit_code);
   add_info_command(app, exit_code);
   add_diff_command(app, exit_code);
+  if (argc > 1) check_command(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError &error) {

@@ -66,8 +66,12 @@ PHALANX_END
 
 PHALANX_BEGIN
 
-// The largest float is used as "no limit": infinities never enter a ray.
+// The segment of every ray. Infinities never enter a ray. A ray that starts exactly on a plane through
+// the origin of an axis (a floor at y = 0: no rounding, no offset) meets it at t = 0, which must not
+// count; the smallest distance is far below any scene's, and its product with a triangle's area is
+// still no denormal.
 #define PHALANX_FAR 3.0e38f
+#define PHALANX_NEAR 1.0e-20f
 
 PHYS float min_of(float a, float b) { return a < b ? a : b; }
 PHYS float max_of(float a, float b) { return a > b ? a : b; }

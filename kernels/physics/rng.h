@@ -55,9 +55,11 @@ PHYS uint32 sobol_second_reversed(uint32 index) {
 /// The upper 24 bits as a float in [0, 1 - 2^-24]: never 1.
 PHYS float unit_float(uint32 x) { return to_float((int32)(x >> 8)) * 5.9604644775390625e-8f; }
 
-/// What distinguishes the sequences of one pixel from those of all others.
+/// What distinguishes the sequences of one pixel from those of all others. x is hashed before it is
+/// added: else two rows whose hashes are close would share the scrambles of most of their pixels.
+/// The constant keeps x and y apart: else pixel (x, y) of seed 0 would be pixel (y, x).
 PHYS uint32 pixel_scramble(int32 x, int32 y, int32 seed) {
-  return hash32((uint32)x + hash32((uint32)y + hash32((uint32)seed)));
+  return hash32(hash32((uint32)x + 0x9e3779b9u) + hash32((uint32)y + hash32((uint32)seed)));
 }
 
 /// Two uniform numbers in [0,1): pair `dimension` of sample `index` (>= 0) of a pixel.

@@ -4,12 +4,13 @@
 
 PHALANX_BEGIN
 
-/// What a ray query returns. geometry is -1 where nothing was hit, else a record of
-/// SceneView::geometries. u, v: barycentric coordinates of the second and third corner (mesh),
-/// position in the parallelogram (quad); u: which root (sphere); unused for disks.
+/// What a ray query returns: which primitive, not where. geometry is -1 where nothing was hit, else
+/// a record of SceneView::geometries. Where on the primitive is computed here from the ray, so that
+/// the picture does not depend on how Embree rounds in packets and in single rays.
 struct Hit {
-  int32 geometry, primitive, instance;  // instance is -1 outside instances
-  float u, v;
+  int32 geometry, primitive;
+  int32 instance;   // -1 outside instances
+  int32 far_root;   // spheres: 1 if the ray met the far side
 };
 
 /// A point on a surface, in world space, seen from the direction that a ray came from.
@@ -34,34 +35,63 @@ PHYS Vec3 load_vec3(const UNI float *UNI values, int32 index) {
 }
 
 struct LocalSurface {
-  Vec3 position, normal, shading_normal;  // object space; normals not normalised
+  Vec3 position, normal, shading_normal;  // object space; normal is unit, shading_normal is not
   Vec3 extent;                            // largest absolute coordinates that entered position
 };
 
-PHYS LocalSurface mesh_surface(const UNI SceneView &scene, Geometry g, Hit hit) {
+struct PlanePoint {
+  Vec3 normal;  // unit, along edge_u x edge_v
+  float u, v;   // of the point corner + u * edge_u + v * edge_v
+};
+
+/// Where the line (origin, direction), which is known to hit, meets the plane of two edges.
+PHYS PlanePoint meet_plane(Vec3 origin, Vec3 direction, Vec3 corner, Vec3 edge_u, Vec3 edge_v) {
+  PlanePoint p;
+  const Vec3 n = cross(edge_u, edge_v);
+  // The length by way of the largest component: squares of tiny or huge areas leave the floats.
+  const float m = max_component(abs3(n));
+  const Vec3 scaled = n * (1.0f / m);
+  const float inv_length = 1.0f / length(scaled);
+  p.normal = scaled * inv_length;
+  const float inv_area = inv_length / m;
+  const Vec3 to_corner = corner - origin;
+  const float slope = dot(direction, p.normal);
+  const float t = slope != 0.0f ? dot(to_corner, p.normal) / slope : 0.0f;
+  const Vec3 q = direction * t - to_corner;
+  p.u = clamp_to(dot(cross(q, edge_v), p.normal) * inv_area, 0.0f, 1.0f);
+  p.v = clamp_to(dot(cross(edge_u, q), p.normal) * inv_area, 0.0f, 1.0f);
+  return p;
+}
+
+PHYS LocalSurface mesh_surface(const UNI SceneView &scene, Geometry g, Hit hit, Vec3 origin,
+                               Vec3 direction) {
   const Triangle t = scene.triangles[g.first + hit.primitive];
   const Vec3 a = load_vec3(scene.positions, t.v0);
   const Vec3 b = load_vec3(scene.positions, t.v1);
   const Vec3 c = load_vec3(scene.positions, t.v2);
-  const float w = 1.0f - hit.u - hit.v;
+  const PlanePoint p = meet_plane(origin, direction, a, b - a, c - a);
+  const float v = min_of(p.v, 1.0f - p.u);
+  const float w = 1.0f - p.u - v;
   LocalSurface s;
-  s.position = a * w + b * hit.u + c * hit.v;
-  s.normal = cross(b - a, c - a);
+  s.position = a * w + b * p.u + c * v;
+  s.normal = p.normal;
   s.extent = max3(max3(abs3(a), abs3(b)), abs3(c));
   s.shading_normal = s.normal;
   if (g.has_normals != 0) {
     s.shading_normal = load_vec3(scene.vertex_normals, t.v0 + g.normal_offset) * w +
-                       load_vec3(scene.vertex_normals, t.v1 + g.normal_offset) * hit.u +
-                       load_vec3(scene.vertex_normals, t.v2 + g.normal_offset) * hit.v;
+                       load_vec3(scene.vertex_normals, t.v1 + g.normal_offset) * p.u +
+                       load_vec3(scene.vertex_normals, t.v2 + g.normal_offset) * v;
   }
   return s;
 }
 
-PHYS LocalSurface quad_surface(const UNI SceneView &scene, Geometry g, Hit hit) {
+PHYS LocalSurface quad_surface(const UNI SceneView &scene, Geometry g, Hit hit, Vec3 origin,
+                               Vec3 direction) {
   const Quad q = fetch(scene.quads, g.first + hit.primitive);
+  const PlanePoint p = meet_plane(origin, direction, q.corner, q.edge_u, q.edge_v);
   LocalSurface s;
-  s.position = q.corner + q.edge_u * hit.u + q.edge_v * hit.v;
-  s.normal = cross(q.edge_u, q.edge_v);
+  s.position = q.corner + q.edge_u * p.u + q.edge_v * p.v;
+  s.normal = p.normal;
   s.shading_normal = s.normal;
   s.extent = abs3(q.corner) + abs3(q.edge_u) + abs3(q.edge_v);
   return s;
@@ -70,7 +100,7 @@ PHYS LocalSurface quad_surface(const UNI SceneView &scene, Geometry g, Hit hit) 
 PHYS LocalSurface sphere_surface(const UNI SceneView &scene, Geometry g, Hit hit, Vec3 origin,
                                  Vec3 direction) {
   const Sphere sphere = scene.spheres[g.first + hit.primitive];
-  const float t = sphere_root(origin, direction, sphere, to_int(hit.u));
+  const float t = sphere_root(origin, direction, sphere, hit.far_root);
   LocalSurface s;
   s.normal = safe_normalize(origin + direction * t - sphere.center, vec3(0.0f, 0.0f, 1.0f));
   s.position = sphere.center + s.normal * sphere.radius;
@@ -86,7 +116,7 @@ PHYS LocalSurface disk_surface(const UNI SceneView &scene, Geometry g, Hit hit, 
   const Vec2 xy = disk_coordinates(origin + direction * t, disk);
   LocalSurface s;
   s.position = disk.center + disk.axis_u * xy.x + disk.axis_v * xy.y;
-  s.normal = cross(disk.axis_u, disk.axis_v);
+  s.normal = safe_normalize(cross(disk.axis_u, disk.axis_v), vec3(0.0f, 0.0f, 1.0f));
   s.shading_normal = s.normal;
   s.extent = abs3(disk.center) + abs3(disk.axis_u) + abs3(disk.axis_v);
   return s;
@@ -103,8 +133,8 @@ PHYS Surface make_surface(const UNI SceneView &scene, Hit hit, Vec3 origin, Vec3
     d = transform_vector(instance.to_object, direction);
   }
   LocalSurface local;
-  if (g.shape == kMesh) local = mesh_surface(scene, g, hit);
-  else if (g.shape == kQuads) local = quad_surface(scene, g, hit);
+  if (g.shape == kMesh) local = mesh_surface(scene, g, hit, o, d);
+  else if (g.shape == kQuads) local = quad_surface(scene, g, hit, o, d);
   else if (g.shape == kSpheres) local = sphere_surface(scene, g, hit, o, d);
   else local = disk_surface(scene, g, hit, o, d);
 
@@ -112,12 +142,13 @@ PHYS Surface make_surface(const UNI SceneView &scene, Hit hit, Vec3 origin, Vec3
     const Instance instance = fetch(scene.instances, hit.instance);
     local.position = transform_point(instance.to_world, local.position);
     local.extent = transform_abs(instance.to_world, local.extent);
-    local.normal = transform_transposed(instance.to_object, local.normal);
+    local.normal = safe_normalize(transform_transposed(instance.to_object, local.normal),
+                                  neg(direction));
     local.shading_normal = transform_transposed(instance.to_object, local.shading_normal);
   }
 
   Surface s;
-  const Vec3 outward = safe_normalize(local.normal, neg(direction));
+  const Vec3 outward = local.normal;
   s.position = local.position;
   s.front = dot(outward, direction) <= 0.0f ? 1 : 0;
   s.normal = s.front != 0 ? outward : neg(outward);

@@ -54,7 +54,7 @@ PHYS Vec3 normalize(Vec3 a) { return a * (1.0f / square_root(dot(a, a))); }
 PHYS Vec3 safe_normalize(Vec3 a, Vec3 fallback) {
   const float m = max_component(abs3(a));
   if (!(m > 0.0f) || !is_finite(m)) return fallback;
-  return normalize(a * (1.0f / m));
+  return normalize(vec3(a.x / m, a.y / m, a.z / m));  // 1 / m may be no float, or flushed to zero
 }
 
 /// An orthonormal frame whose third axis is n.

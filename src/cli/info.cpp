@@ -53,7 +53,7 @@ std::string bounds_text(const Scene &scene) {
 
 void print_scene(const SceneDescription &description, const Scene &scene) {
   const auto line = [](const char *name, const auto &value) {
-    fmt::print("{:<20}{}\n", name, value);
+    fmt::print("{:<24}{}\n", name, value);
   };
   line("scene", description.file);
   line("picture", fmt::format("{} x {} pixels, {} spp, depth {}", description.film.width,
@@ -85,7 +85,7 @@ int info_of_scene(const std::string &path) {
   diagnostics.throw_if_errors();
   print_scene(description, scene);
   for (const Problem &problem : diagnostics.warnings())
-    fmt::print("{:<20}{}\n", "warning", problem.text());
+    fmt::print("{:<24}{}\n", "warning", problem.text());
   return kExitDone;
 }
 
@@ -118,19 +118,19 @@ Range range_of(const std::vector<float> &values) {
 void print_channel(const Channel &channel) {
   const Range range = range_of(channel.values);
   const double mean = range.finite ? range.sum / static_cast<double>(range.finite) : kNothing;
-  fmt::print("{:<20}min {:<12.6g} mean {:<12.6g} max {:<12.6g} NaN {} Inf {} negative {}\n",
+  fmt::print("{:<24}min {:<12.6g} mean {:<12.6g} max {:<12.6g} NaN {} Inf {} negative {}\n",
              channel.name, range.min, mean, range.max, range.nan, range.inf, range.negative);
 }
 
 int info_of_image(const std::string &path) {
   const Image image = read_image(path);
-  fmt::print("{:<20}{}\n", "image", path);
-  fmt::print("{:<20}{} x {} pixels", "size", image.width, image.height);
+  fmt::print("{:<24}{}\n", "image", path);
+  fmt::print("{:<24}{} x {} pixels", "size", image.width, image.height);
   if (image.width != image.full_width || image.height != image.full_height)
     fmt::print(" at ({}, {}) of {} x {}", image.x, image.y, image.full_width, image.full_height);
   fmt::print("\n");
   for (const Channel &channel : image.channels) print_channel(channel);
-  for (const auto &[key, value] : image.metadata) fmt::print("{:<20}{}\n", key, value);
+  for (const auto &[key, value] : image.metadata) fmt::print("{:<24}{}\n", key, value);
   return kExitDone;
 }
 

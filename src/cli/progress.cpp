@@ -18,7 +18,7 @@ namespace {
 constexpr double kLogInterval = 5;  // seconds between lines in a log
 constexpr double kEstimateInterval =
     1;  // seconds between error estimates: they read the whole film
-constexpr int kBarWidth = 20;
+constexpr int kBarWidth = 10;
 
 std::string bar(double fraction) {
   const int filled = static_cast<int>(fraction * kBarWidth);

@@ -3,8 +3,9 @@
 
 namespace phalanx {
 
-/// From now on the first SIGINT or SIGTERM is only remembered. It also restores the default action
-/// of both signals, so that a second one ends the program at once.
+/// From now on the first SIGINT or SIGTERM is only remembered; the next one ends the program at
+/// once. Signals within a fifth of a second count as one: timeout(1) and job managers send a signal
+/// to the process and to its group.
 void catch_stop_signals();
 
 /// The signal that was caught, or 0.

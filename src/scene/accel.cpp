@@ -259,7 +259,7 @@ void set_ray(RTCRay &r, Vec3 origin, Vec3 direction, float t_far) {
   r.org_x = origin.x;
   r.org_y = origin.y;
   r.org_z = origin.z;
-  r.tnear = 0;
+  r.tnear = PHALANX_NEAR;
   r.dir_x = direction.x;
   r.dir_y = direction.y;
   r.dir_z = direction.z;

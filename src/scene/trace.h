@@ -4,7 +4,7 @@
 
 namespace phalanx {
 
-/// Closest hit in (0, infinity); hit.geometry is -1 where there is none.
+/// Closest hit in (PHALANX_NEAR, PHALANX_FAR); hit.geometry is -1 where there is none.
 Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction);
 /// True where something lies between origin and origin + distance * direction.
 bool trace_occluded(const SceneView &scene, Vec3 origin, Vec3 direction, float distance);
