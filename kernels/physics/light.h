@@ -38,7 +38,8 @@ PHYS float light_pdf(Light light, Vec3 origin, Vec3 position, Vec3 n) {
   const float d2 = length_squared(to_light);
   const float cos_l = abs_of(dot(n, to_light));  // times the distance
   if (!(cos_l > 0.0f)) return 0.0f;
-  return light.select_pdf * (d2 * square_root(d2)) / (light.area * cos_l);
+  // Ratios of like magnitude: the cube of a distance leaves the floats above 10^12 m.
+  return light.select_pdf * (d2 / light.area) * (square_root(d2) / cos_l);
 }
 
 /// A point on a sphere light: by the cone it fills seen from outside, by area from within.

@@ -68,7 +68,7 @@ std::string summary_line(const RunStats &stats, const ErrorEstimate &error) {
 
 void ProgressDisplay::refresh_estimate(const Progress &progress, const Film &film) {
   const bool due = progress.elapsed_s - estimate_s_ >= kEstimateInterval;
-  if (progress.spp_done <= estimate_spp_ || !due) return;
+  if (!progress.between_passes || progress.spp_done <= estimate_spp_ || !due) return;
   relmse_ = estimate_error(film, stratified_).relmse;
   estimate_spp_ = progress.spp_done;
   estimate_s_ = progress.elapsed_s;

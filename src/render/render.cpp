@@ -117,46 +117,53 @@ RenderResult render(const Scene &scene, const Accel &accel, const Plan &plan,
   const double start = wall_seconds(), cpu_start = cpu_seconds();
   std::mutex progress_mutex;
   double last_progress = start;
-  std::atomic<std::int64_t> tiles_done = 0;
+  std::atomic<std::int64_t> tiles_done = 0, rays_done = 0;
   std::atomic<bool> stop = false;
   stats.stopped_by = "spp";
+
+  const auto report = [&](const Pass &pass, bool between_passes) {
+    Progress p;
+    p.spp_done = pass.first_sample + (between_passes ? 1 << pass.log2_samples : 0);
+    p.spp_total = plan.spp;
+    p.fraction = static_cast<double>(tiles_done) /
+                 (static_cast<double>(tiles.size()) * static_cast<double>(passes.size()));
+    p.elapsed_s = wall_seconds() - start;
+    p.rays = rays_done;
+    p.between_passes = between_passes;
+    if (!progress(p, result.film)) stop = true;
+    last_progress = wall_seconds();
+  };
+
+  const auto render_tile_pass = [&](const Pass &pass, size_t t, size_t thread) {
+    auto &worker = workers[thread];
+    if (!worker) worker = std::make_unique<Worker>(plan, kernels, options.mode);
+    if (pixels[t].empty()) pixels[t] = tile_pixels(tiles[t], plan.tile_size);
+    TileView tile = {};
+    tile.pixels = pixels[t].data();
+    tile.num_pixels = static_cast<int32>(pixels[t].size());
+    tile.log2_samples = pass.log2_samples;
+    tile.first_sample = pass.first_sample;
+    tile.num_samples = tile.num_pixels << pass.log2_samples;
+    tile.radiance = worker->radiance.data();
+    tile.aov = plan.aovs ? worker->aov.data() : nullptr;
+    const std::int64_t rays_before = worker->rays.total();
+    render_tile(options.mode, kernels, plan, view, tile, *worker);
+    worker->clock.start();
+    add_to_film(result.film, tile, invalid[t]);
+    worker->clock.lap(kStageFilm, tile.num_samples);
+    rays_done += worker->rays.total() - rays_before;
+    ++tiles_done;
+  };
 
   for (const Pass &pass : passes) {
     parallel_for(static_cast<std::int64_t>(tiles.size()), plan.threads,
                  [&](std::int64_t t, int thread) {
-      auto &worker = workers[static_cast<size_t>(thread)];
-      if (!worker) worker = std::make_unique<Worker>(plan, kernels, options.mode);
-      auto &tile_pixel_list = pixels[static_cast<size_t>(t)];
-      if (tile_pixel_list.empty()) tile_pixel_list = tile_pixels(tiles[static_cast<size_t>(t)], plan.tile_size);
-      TileView tile = {};
-      tile.pixels = tile_pixel_list.data();
-      tile.num_pixels = static_cast<int32>(tile_pixel_list.size());
-      tile.log2_samples = pass.log2_samples;
-      tile.first_sample = pass.first_sample;
-      tile.num_samples = tile.num_pixels << pass.log2_samples;
-      tile.radiance = worker->radiance.data();
-      tile.aov = plan.aovs ? worker->aov.data() : nullptr;
-      render_tile(options.mode, kernels, plan, view, tile, *worker);
-      worker->clock.start();
-      add_to_film(result.film, tile, invalid[static_cast<size_t>(t)]);
-      worker->clock.lap(kStageFilm, tile.num_samples);
-
-      const std::int64_t done = ++tiles_done;
+      render_tile_pass(pass, static_cast<size_t>(t), static_cast<size_t>(thread));
       if (!progress) return;
       const std::unique_lock lock(progress_mutex, std::try_to_lock);
-      const double now = wall_seconds();
-      if (!lock.owns_lock() || now - last_progress < 0.25) return;
-      last_progress = now;
-      Progress p;
-      p.spp_done = pass.first_sample;
-      p.spp_total = plan.spp;
-      p.fraction = static_cast<double>(done) /
-                   (static_cast<double>(tiles.size()) * static_cast<double>(passes.size()));
-      p.elapsed_s = now - start;
-      for (const auto &w : workers)
-        if (w) p.rays += w->rays.total();
-      if (!progress(p, result.film)) stop = true;
+      if (lock.owns_lock() && wall_seconds() - last_progress > 0.25) report(pass, false);
     });
+    if (progress) report(pass, true);
     stats.spp = pass.first_sample + (1 << pass.log2_samples);
     if (stats.spp == plan.spp) break;
     if (stop) {

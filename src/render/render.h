@@ -16,9 +16,10 @@ struct Progress {
   double fraction = 0;               // of all tiles x passes, in [0, 1]
   double elapsed_s = 0;
   std::int64_t rays = 0;
+  bool between_passes = false;       // only then may the film be read
 };
-/// Called from one thread at a time, at most a few times a second. Return false to stop at the end
-/// of the running pass.
+/// Called by one thread: within passes at most a few times a second, and after every pass. Return
+/// false to stop at the end of the running pass.
 using ProgressCallback = std::function<bool(const Progress &, const Film &)>;
 
 struct RenderResult {

@@ -45,11 +45,11 @@ TEST_CASE("ggx: D agrees with double precision down to alpha = 1e-4 (M1)") {
 
 TEST_CASE("ggx: projected area of the normals is 1") {
   for (const float alpha : kAlphas) {
-    const auto projected = [&](double c, double phi) {
-      const NormalSpace::Normal m = NormalSpace{static_cast<double>(alpha)}.normal(c, phi);
+    const auto projected = [&](double cosine, double phi) {
+      const NormalSpace::Normal m = NormalSpace{static_cast<double>(alpha)}.normal(cosine, phi);
       return static_cast<double>(ggx_d(m.direction, alpha)) * m.z * m.jacobian;
     };
-    const double area = integrate(projected, 0, 0.999999, 0, 2 * kPi, 1e-6, 10);
+    const double area = integrate(projected, 0, 1, 0, 2 * kPi, 1e-6, 10);
     CAPTURE(alpha);
     CHECK(area == doctest::Approx(1).epsilon(1e-4));
   }
@@ -59,12 +59,12 @@ TEST_CASE("ggx: visible area of the normals is the projected area of wo") {
   // Integral of G1(wo) max(wo.m, 0) D(m) = wo.z: pdf_ggx_visible integrates to 1.
   for (const float alpha : kAlphas)
     for (const Vec3 wo : local_directions()) {
-      const auto density = [&](double c, double phi) {
-        const NormalSpace::Normal m = NormalSpace{static_cast<double>(alpha)}.normal(c, phi);
+      const auto density = [&](double cosine, double phi) {
+        const NormalSpace::Normal m = NormalSpace{static_cast<double>(alpha)}.normal(cosine, phi);
         return static_cast<double>(pdf_ggx_visible(wo, m.direction, alpha)) * m.jacobian;
       };
       double mass = 0;
-      for (const double part : cell_masses({10, 20, 0, 1 - 1e-9, 0, 2 * kPi}, density)) mass += part;
+      for (const double part : cell_masses(hemisphere_grid(10, 20), density)) mass += part;
       CAPTURE(alpha);
       CAPTURE(wo.z);
       CHECK(mass == doctest::Approx(1).epsilon(1e-3));
@@ -76,15 +76,15 @@ TEST_CASE("ggx: visible normals follow their density") {
     for (const Vec3 wo : local_directions()) {
       const NormalSpace space{static_cast<double>(alpha)};
       Random random(5);
-      Histogram coarse({10, 20, 0, 1, 0, 2 * kPi}), fine({64, 128, 0, 1, 0, 2 * kPi});
+      Histogram coarse(hemisphere_grid(10, 20)), fine(hemisphere_grid(64, 128));
       for (int i = 0; i < num_samples() / 2; ++i) {
         const Vec3 m = sample_ggx_visible(wo, alpha, random.square());
         const NormalSpace::Place at = space.place(m);
-        coarse.add(at.c, at.phi);
-        fine.add(at.c, at.phi);
+        coarse.add(at.cosine, at.phi);
+        fine.add(at.cosine, at.phi);
       }
-      const auto density = [&](double c, double phi) {
-        const NormalSpace::Normal m = space.normal(std::min(c, 1 - 1e-9), phi);
+      const auto density = [&](double cosine, double phi) {
+        const NormalSpace::Normal m = space.normal(cosine, phi);
         return static_cast<double>(pdf_ggx_visible(wo, m.direction, alpha)) * m.jacobian;
       };
       CAPTURE(alpha);

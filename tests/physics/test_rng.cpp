@@ -42,7 +42,7 @@ double chi_square_of(const std::vector<Vec2> &points, int cells) {
   return chi_square_fit(histogram, masses).p;
 }
 
-/// Correlation of two columns times sqrt(n): standard normal if they are independent.
+/// Correlation of two columns times sqrt(n): of variance 1 if the numbers are independent.
 double scaled_correlation(const std::vector<float> &a, const std::vector<float> &b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -63,16 +63,25 @@ Columns columns(int sampler, uint32 scramble, int dimension, int n) {
   return c;
 }
 
-/// Checks that the values of `z`, each standard normal if all is well, look so together.
-void check_standard_normal(const std::vector<double> &z) {
-  Mean squares;
+/// Variance of scaled_correlation. Two Owen-scrambled sequences of one pixel order their samples by
+/// the same tree: the leading bits of both flip between samples 2i and 2i + 1, so that correlations,
+/// 0 on average, scatter with variance 2 (3/4)^2 + 1 (2 3/4 1/4) + ... = 1.6, whatever n.
+double correlation_variance(int sampler) { return sampler == kSobolSampler ? 1.6 : 1.0; }
+
+/// Checks that correlations are 0 but for the scatter that is due.
+void check_uncorrelated(int sampler, const std::vector<double> &scaled) {
+  Mean mean, squares;
   double worst = 0;
-  for (const double value : z) {
-    squares.add(value * value);
-    worst = std::max(worst, std::fabs(value));
+  for (const double value : scaled) {
+    const double z = value / std::sqrt(correlation_variance(sampler));
+    mean.add(z);
+    squares.add(z * z);
+    worst = std::max(worst, std::fabs(z));
   }
-  CHECK(normal_two_sided(worst) > sidak(1e-3, static_cast<int>(z.size())));
-  CHECK(squares.mean() < 1 + 4 * std::sqrt(2.0 / static_cast<double>(z.size())));
+  CAPTURE(sampler);
+  CHECK(mean.p(0) > alpha());
+  CHECK(squares.p(1, 0.02) > alpha());
+  CHECK(normal_two_sided(worst) > sidak(1e-3, static_cast<int>(scaled.size())));
 }
 
 }  // namespace
@@ -203,8 +212,7 @@ TEST_CASE("rng: pairs of dimensions are uncorrelated") {
           z.push_back(scaled_correlation(c[a].y, c[b].y));
         }
     }
-    CAPTURE(sampler);
-    check_standard_normal(z);
+    check_uncorrelated(sampler, z);
   }
 }
 
@@ -221,13 +229,13 @@ TEST_CASE("rng: neighbouring pixels are uncorrelated") {
           z.push_back(scaled_correlation(a.y, c.y));
           z.push_back(scaled_correlation(a.x, c.y));
         }
-    CAPTURE(sampler);
-    check_standard_normal(z);
+    check_uncorrelated(sampler, z);
   }
 }
 
 TEST_CASE("rng: pixels of a picture have scrambles of their own, but for chance") {
-  // n random 32-bit numbers collide n^2 / 2^33 times.
+  // n random 32-bit numbers collide n^2 / 2^33 times. When x was added without being hashed, rows
+  // of close hashes shared runs of scrambles: one 1024 x 1024 picture in four had some.
   std::unordered_set<uint32> seen;
   const int size = 1024;
   for (int y = 0; y < size; ++y)
@@ -235,5 +243,5 @@ TEST_CASE("rng: pixels of a picture have scrambles of their own, but for chance"
   const double collisions = static_cast<double>(size) * size - static_cast<double>(seen.size());
   const double expected = std::pow(size, 4) / std::pow(2, 33);
   MESSAGE("collisions " << collisions << ", expected " << expected);
-  CHECK(collisions < expected + 5 * std::sqrt(expected));
+  CHECK(std::fabs(collisions - expected) < 5 * std::sqrt(expected));
 }

@@ -1,7 +1,8 @@
 // Coordinates of the hemisphere of normals in which GGX of any roughness looks alike.
 //
-// With slope t = tan(theta) / alpha, c = t^2 / (1 + t^2) is uniform in [0,1) for the normals of GGX
-// itself, seen along the surface's normal. So grids over (c, phi) resolve sharp lobes, too.
+// A normal (x, y, z) of roughness alpha is stretched to (x, y, alpha z) / length, which makes the
+// distribution of normals that of a hemisphere (alpha = 1). Grids over (cosine, azimuth) of stretched
+// normals resolve the sharpest lobes.
 #pragma once
 #include "../../kernels/physics/vec.h"
 #include "statistics.h"
@@ -12,30 +13,37 @@ struct NormalSpace {
   double alpha;
 
   struct Place {
-    double c, phi;
+    double cosine, phi;  // of the stretched normal
   };
   Place place(Vec3 m) const {
-    const double x = static_cast<double>(m.x), y = static_cast<double>(m.y);
-    const double z = static_cast<double>(m.z) * alpha;
-    const double sin2 = x * x + y * y;
-    return {sin2 / (sin2 + z * z), azimuth(x, y)};
+    return place(static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z));
+  }
+  Place place(double x, double y, double z) const {
+    return {alpha * z / std::hypot(x, y, alpha * z), azimuth(x, y)};
+  }
+  /// Of the half vector of two unit directions. Their rounded lengths are corrected first: at
+  /// grazing angles they would tilt it.
+  Place place_half(Vec3 a, Vec3 b) const {
+    const double ax = static_cast<double>(a.x), ay = static_cast<double>(a.y);
+    const double az = static_cast<double>(a.z), bx = static_cast<double>(b.x);
+    const double by = static_cast<double>(b.y), bz = static_cast<double>(b.z);
+    const double la = std::hypot(ax, ay, az), lb = std::hypot(bx, by, bz);
+    return place(ax / la + bx / lb, ay / la + by / lb, az / la + bz / lb);
   }
 
   struct Normal {
     Vec3 direction;
-    double x, y, z;     // the same in double
-    double jacobian;    // solid angle per dc dphi
+    double z;
+    double jacobian;  // solid angle of normals per solid angle of stretched ones
   };
-  Normal normal(double c, double phi) const {
-    const double r2 = c / (1 - c), tangent = alpha * std::sqrt(r2);
-    const double z = 1 / std::sqrt(1 + tangent * tangent), s = tangent * z;
+  Normal normal(double cosine, double phi) const {
+    const double sine = std::sqrt(1 - cosine * cosine);
+    const double size = std::hypot(alpha * sine, cosine), s = alpha * sine / size;
     Normal n;
-    n.x = s * std::cos(phi);
-    n.y = s * std::sin(phi);
-    n.z = z;
-    n.direction = {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
-    // d omega = cos^3 dslope, dslope = alpha^2 / 2 d(r^2) dphi, d(r^2) = dc / (1 - c)^2.
-    n.jacobian = z * z * z * alpha * alpha * 0.5 / ((1 - c) * (1 - c));
+    n.z = cosine / size;
+    n.direction = {static_cast<float>(s * std::cos(phi)), static_cast<float>(s * std::sin(phi)),
+                   static_cast<float>(n.z)};
+    n.jacobian = alpha * alpha / (size * size * size);
     return n;
   }
 };

@@ -9,14 +9,9 @@ namespace phalanx::test {
 
 class Random {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15u) {}
+  explicit Random(std::uint64_t seed) : state_(mix(seed)) {}
 
-  std::uint64_t bits() {
-    std::uint64_t x = state_ += 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return x ^ (x >> 31);
-  }
+  std::uint64_t bits() { return mix(state_ += 0x9e3779b97f4a7c15u); }
   /// In [0, 1 - 2^-24], multiples of 2^-24: what the physics is fed with.
   float unit() { return static_cast<float>(bits() >> 40) * 0x1p-24f; }
   /// In [0, 1), with 53 bits.
@@ -40,6 +35,11 @@ class Random {
   }
 
  private:
+  static std::uint64_t mix(std::uint64_t x) {
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+  }
   std::uint64_t state_;
 };
 

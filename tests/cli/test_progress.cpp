@@ -12,14 +12,14 @@ using namespace phalanx;
 TEST_CASE("progress: a line in the middle of a rendering") {
   const Progress progress{128, 256, 0.45, 12.3, 102'090'000};
   CHECK(progress_line(progress, 3.1e-3) ==
-        "[#########...........] 45 % | 12.3 s, 15.0 s left | 128/256 spp | 8.3 Mray/s | "
+        "[####......] 45 % | 12.3 s, 15.0 s left | 128/256 spp | 8.3 Mray/s | "
         "relMSE 3.1e-3");
 }
 
 TEST_CASE("progress: what is not known is left out") {
-  CHECK(progress_line({}, NAN) == "[....................] 0 % | 0.0 s | 0 spp");
+  CHECK(progress_line({}, NAN) == "[..........] 0 % | 0.0 s | 0 spp");
   CHECK(progress_line({8, 0, 1.0, 120, 0}, NAN) ==
-        "[####################] 100 % | 120 s | 8 spp | 0.0 Mray/s");
+        "[##########] 100 % | 120 s | 8 spp | 0.0 Mray/s");
 }
 
 TEST_CASE("progress: the summary") {
