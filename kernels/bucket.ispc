@@ -2,36 +2,35 @@
 // one material kind. A counting sort; within a kind slots ascend.
 #include "gang.isph"
 
+#define NUM_BUCKETS (kNumMaterialKinds + 1)
+
 /// counts[kind] receives the number of paths that hit that kind, counts[kNumMaterialKinds] those
 /// that left the scene. wave.order lists them, kind after kind. Slots 0 .. num_slots - 1 are read.
-export void KERNEL(bucket)(const uniform SceneView &scene, const uniform WaveView &wave,
-                           uniform int32 num_slots, uniform int32 counts[]) {
-  uniform int32 n[kNumMaterialKinds + 1];
-  for (uniform int32 k = 0; k <= kNumMaterialKinds; ++k) n[k] = 0;
-  for (uniform int32 base = 0; base < num_slots; base += programCount) {
-    const int32 slot = base + programIndex;
-    if (slot < num_slots && wave.depth[slot] >= 0) {
-      int32 kind = kNumMaterialKinds;
-      const int32 geometry = wave.hit_geometry[slot];
-      if (geometry >= 0) kind = scene.materials[scene.geometries[geometry].material].kind;
-      wave.hit_geometry[slot] = geometry;
-      foreach_unique(k in kind) { n[k] += popcnt(lanemask()); }
-    }
+export void KERNEL(bucket)(const uniform WaveView &wave, uniform int32 num_slots,
+                           uniform int32 counts[]) {
+  int32 found[NUM_BUCKETS];
+  for (uniform int32 k = 0; k < NUM_BUCKETS; ++k) found[k] = 0;
+  foreach (slot = 0 ... num_slots) {
+    const int32 kind = wave.depth[slot] >= 0 ? wave.hit_kind[slot] : -1;
+    for (uniform int32 k = 0; k < NUM_BUCKETS; ++k)
+      if (kind == k) found[k] += 1;
   }
-  uniform int32 next[kNumMaterialKinds + 1];
+  uniform int32 next[NUM_BUCKETS];
   uniform int32 sum = 0;
-  for (uniform int32 k = 0; k <= kNumMaterialKinds; ++k) {
+  for (uniform int32 k = 0; k < NUM_BUCKETS; ++k) {
+    counts[k] = reduce_add(found[k]);
     next[k] = sum;
-    sum += n[k];
-    counts[k] = n[k];
+    sum += counts[k];
   }
-  for (uniform int32 base = 0; base < num_slots; base += programCount) {
-    const int32 slot = base + programIndex;
-    if (slot < num_slots && wave.depth[slot] >= 0) {
-      int32 kind = kNumMaterialKinds;
-      const int32 geometry = wave.hit_geometry[slot];
-      if (geometry >= 0) kind = scene.materials[scene.geometries[geometry].material].kind;
-      foreach_unique(k in kind) { next[k] += packed_store_active(&wave.order[next[k]], slot); }
+  foreach (slot = 0 ... num_slots) {
+    const int32 kind = wave.depth[slot] >= 0 ? wave.hit_kind[slot] : -1;
+    uniform int32 common;
+    if (reduce_equal(kind, &common)) {
+      // The usual case: the whole gang goes to one bucket.
+      if (common >= 0) next[common] += packed_store_active(&wave.order[next[common]], slot);
+    } else {
+      for (uniform int32 k = 0; k < NUM_BUCKETS; ++k)
+        if (kind == k) next[k] += packed_store_active(&wave.order[next[k]], slot);
     }
   }
 }

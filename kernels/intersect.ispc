@@ -13,6 +13,12 @@ export void KERNEL(intersect)(const uniform SceneView &scene, const uniform Wave
                       coherent != 0);
     put(wave.hit_geometry, g, hit.geometry);
     put(wave.hit_primitive, g, hit.primitive);
+    int32 kind = kNumMaterialKinds;
+    if (hit.geometry >= 0) {
+      const Geometry geometry = fetch(scene.geometries, hit.geometry);
+      kind = geometry.kind;
+    }
+    put(wave.hit_kind, g, kind);
     if (scene.num_spheres > 0) put(wave.hit_far_root, g, hit.far_root);
     if (scene.num_instances > 0) put(wave.hit_instance, g, hit.instance);
   }

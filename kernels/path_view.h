@@ -20,6 +20,7 @@ struct WaveView {
   UNI int32 *UNI block_index;      // the path's sample in TileView::radiance
   // Hits; written by intersect.
   UNI int32 *UNI hit_geometry, *UNI hit_primitive;
+  UNI int32 *UNI hit_kind;         // MaterialKind, or kNumMaterialKinds where the ray left the scene
   UNI int32 *UNI hit_instance;     // only with instances
   UNI int32 *UNI hit_far_root;     // only with spheres
   // Shadow rays, in the slot of their path; only with lights. Written by shade.

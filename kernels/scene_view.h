@@ -9,15 +9,24 @@ PHALANX_BEGIN
 
 // ---- materials --------------------------------------------------------------------------------
 
-/// Which scattering function a material has. One shade kernel exists per kind.
+/// Every kind of scattering: constant, name, 1 if it has a density that light can be sampled for.
+/// One line here gives a kind its shade kernel, its place in every schedule, its stage and its name;
+/// its functions are named in physics/bsdf.h (docs/add-a-material.md).
+///   mirror: perfect specular reflection     dielectric: smooth, delta reflection and transmission
+///   conductor: rough, GGX                   black: scatters nothing: pure emitters and absorbers
+#define PHALANX_MATERIAL_KINDS(X) \
+  X(kDiffuse, diffuse, 1)         \
+  X(kMirror, mirror, 0)           \
+  X(kDielectric, dielectric, 0)   \
+  X(kConductor, conductor, 1)     \
+  X(kBlack, black, 0)
+
 /// kNumMaterialKinds is also the bucket of rays that left the scene.
 enum MaterialKind {
-  kDiffuse = 0,
-  kMirror = 1,      // perfect specular reflection
-  kDielectric = 2,  // smooth, delta reflection and transmission
-  kConductor = 3,   // rough, GGX
-  kBlack = 4,       // scatters nothing: pure emitters and absorbers
-  kNumMaterialKinds = 5
+#define PHALANX_KIND(constant, name, density) constant,
+  PHALANX_MATERIAL_KINDS(PHALANX_KIND)
+#undef PHALANX_KIND
+  kNumMaterialKinds
 };
 
 struct Material {
@@ -39,6 +48,7 @@ enum ShapeKind { kMesh = 0, kQuads = 1, kSpheres = 2, kDisks = 3 };
 struct Geometry {
   int32 shape;           // ShapeKind
   int32 material;        // index into materials
+  int32 kind;            // MaterialKind of that material
   int32 first;           // index of primitive 0 in triangles / quads / spheres / disks
   int32 first_light;     // light of primitive 0, the others follow; -1 when it does not emit
   int32 normal_offset;   // meshes: normal of vertex v is vertex_normals[v + normal_offset]
@@ -124,7 +134,7 @@ struct Camera {
 };
 
 enum FilterKind { kBoxFilter = 0, kGaussianFilter = 1, kBlackmanHarrisFilter = 2 };
-#define PHALANX_FILTER_CELLS 256  // of the table that inverts a filter's distribution function
+#define PHALANX_FILTER_CELLS 1024  // of the table that inverts a filter's distribution function
 enum SamplerKind { kSobolSampler = 0, kIndependentSampler = 1 };
 
 /// Everything about a picture that is not the scene.

@@ -6,6 +6,9 @@ static inline uniform int32 shade(const uniform SceneView &scene, const uniform 
                                   const uniform TileView &tile, const uniform WaveView &wave,
                                   const uniform int32 *uniform slots, uniform int32 count,
                                   uniform int32 num_shadow) {
+  // As in the plan: without light samples the wave has no shadow columns.
+  const uniform bool sample_lights =
+      scene.num_lights > 0 && frame.max_depth > 0 && has_density<Kind>();
   foreach (i = 0 ... count) {
     const Gang g = make_gang(slots, i);
     const PathState p = get_path(wave, tile, g);
@@ -13,7 +16,7 @@ static inline uniform int32 shade(const uniform SceneView &scene, const uniform 
     put_ray(wave, g, v.next);
     put(wave.depth, g, v.next.depth);
     if (!is_black(v.emitted)) add_radiance(tile, get(wave.block_index, g), v.emitted);
-    if (scene.num_lights > 0 && has_density<Kind>()) {
+    if (sample_lights) {
       // Slots without a shadow ray receive garbage that no list names: whole vectors are much
       // cheaper to write than parts of them.
       put3(wave.shadow_origin_x, wave.shadow_origin_y, wave.shadow_origin_z, g, v.shadow.origin);
@@ -30,19 +33,15 @@ static inline uniform int32 shade(const uniform SceneView &scene, const uniform 
 
 // Each appends its shadow rays to wave.shadow_list, which holds num_shadow, and returns how many it
 // holds then.
-#define SHADE_KERNEL(name, Kind)                                                                  \
-  export uniform int32 KERNEL(name)(                                                              \
+#define SHADE_KERNEL(Kind, name, density)                                                                  \
+  export uniform int32 KERNEL(shade_##name)(                                                              \
       const uniform SceneView &scene, const uniform FrameView &frame, const uniform TileView &tile, \
       const uniform WaveView &wave, const uniform int32 slots[], uniform int32 count,             \
       uniform int32 num_shadow) {                                                                 \
     return shade<Kind>(scene, frame, tile, wave, slots, count, num_shadow);                       \
   }
 
-SHADE_KERNEL(shade_diffuse, kDiffuse)
-SHADE_KERNEL(shade_mirror, kMirror)
-SHADE_KERNEL(shade_dielectric, kDielectric)
-SHADE_KERNEL(shade_conductor, kConductor)
-SHADE_KERNEL(shade_black, kBlack)
+PHALANX_MATERIAL_KINDS(SHADE_KERNEL)
 
 /// Paths that left the scene: the environment, and their end.
 export void KERNEL(shade_escaped)(const uniform SceneView &scene, const uniform TileView &tile,

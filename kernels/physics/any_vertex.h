@@ -8,13 +8,13 @@ PHALANX_BEGIN
 /// hit.geometry >= 0.
 PHYS Vertex path_vertex_any(const UNI SceneView &scene, const UNI FrameView &frame, PathState p,
                             Hit hit) {
-  const int32 kind = scene.materials[scene.geometries[hit.geometry].material].kind;
+  const int32 kind = scene.geometries[hit.geometry].kind;
   Vertex v;
-  if (kind == kDiffuse) v = path_vertex<kDiffuse>(scene, frame, p, hit);
-  else if (kind == kMirror) v = path_vertex<kMirror>(scene, frame, p, hit);
-  else if (kind == kDielectric) v = path_vertex<kDielectric>(scene, frame, p, hit);
-  else if (kind == kConductor) v = path_vertex<kConductor>(scene, frame, p, hit);
-  else v = path_vertex<kBlack>(scene, frame, p, hit);
+  v.next = p;
+#define PHALANX_KIND(constant, name, density) \
+  if (kind == constant) v = path_vertex<constant>(scene, frame, p, hit);
+  PHALANX_MATERIAL_KINDS(PHALANX_KIND)
+#undef PHALANX_KIND
   return v;
 }
 

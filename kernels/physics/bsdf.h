@@ -14,7 +14,11 @@ PHALANX_BEGIN
 /// True for kinds that light can be sampled for: those with a density.
 template <int Kind>
 PHYS UNI bool has_density() {
-  return Kind == kDiffuse || Kind == kConductor;
+#define PHALANX_KIND(constant, name, density) \
+  if (Kind == constant) return density != 0;
+  PHALANX_MATERIAL_KINDS(PHALANX_KIND)
+#undef PHALANX_KIND
+  return false;
 }
 
 /// Draws wi. `front`: wo is on the outer side of the surface. u: direction; u_lobe: choice of lobe.

@@ -94,8 +94,12 @@ PHYS ShadowRay direct_light(const UNI SceneView &scene, const UNI FrameView &fra
   ray.origin = start;
   ray.direction = light.direction;
   ray.distance = light.distance;
-  // An opaque surface receives light only on the viewer's side, of the geometry and of the shading.
-  if (!(light.pdf > 0.0f) || !(dot(light.direction, s.normal) > 0.0f)) return ray;
+  // An opaque surface receives light only on the viewer's side, of the geometry and of the shading. The
+  // point itself must lie there, too: a convex lamp does not light itself, though points moved off it
+  // can rise above its own horizon.
+  if (!(light.pdf > 0.0f) || !(dot(light.direction, s.normal) > 0.0f) ||
+      !(dot(light.point - start, s.normal) > 0.0f))
+    return ray;
   const BsdfValue f = eval_bsdf<Kind>(m, wo, to_local(s.shading, light.direction));
   if (!(f.pdf > 0.0f)) return ray;
   const float weight = power_heuristic(light.pdf, f.pdf);

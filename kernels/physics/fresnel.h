@@ -13,8 +13,8 @@ struct Refraction {
 /// index on the near side. eta = 1 reflects exactly nothing.
 PHYS Refraction fresnel_dielectric(float cos_i, float eta) {
   Refraction r;
-  const float sin2_i = max_of(1.0f - cos_i * cos_i, 0.0f);
-  const float cos2_t = 1.0f - sin2_i / (eta * eta);
+  // 1 - sin^2 / eta^2 without the cancellation that it has near grazing and near eta = 1.
+  const float cos2_t = ((eta - 1.0f) * (eta + 1.0f) + cos_i * cos_i) / (eta * eta);
   if (cos2_t <= 0.0f) {
     r.reflectance = 1.0f;
     r.cos_t = 0.0f;

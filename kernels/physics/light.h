@@ -10,8 +10,8 @@
 PHALANX_BEGIN
 
 struct LightSample {
-  Vec3 position;    // on the light, moved off it by its rounding error
-  Vec3 direction;   // unit, from the receiver
+  Vec3 point;       // on the light
+  Vec3 direction;   // unit, from the receiver to the point, moved off the light by its rounding error
   float distance;   // metres
   float pdf;        // per solid angle, > 0; 0: no usable sample
   Vec3 radiance;    // towards the receiver; black where the light's back is seen
@@ -77,8 +77,8 @@ PHYS LightSample sample_light(const UNI SceneView &scene, Vec3 origin, Vec2 u_ch
   }
   const bool front = dot(n, origin - p) > 0.0f;
   LightSample s;
-  s.position = p + n * (front ? light.error : -light.error);
-  const Vec3 to_light = s.position - origin;
+  s.point = p;
+  const Vec3 to_light = p + n * (front ? light.error : -light.error) - origin;
   s.distance = length(to_light);
   s.pdf = light_pdf(light, origin, p, n);
   s.radiance = (front || light.two_sided != 0) ? light.emission : vec3(0.0f, 0.0f, 0.0f);

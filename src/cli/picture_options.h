@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "../render/options.h"
+#include "../plan/options.h"
 
 namespace phalanx {
 

@@ -8,22 +8,12 @@
 #include <vector>
 
 #include "../../kernels/physics/vec.h"
+#include "../core/stats.h"
 
 namespace phalanx {
 
 struct Rect {
   int x = 0, y = 0, width = 0, height = 0;
-};
-
-/// Samples that were not finite numbers: how many, and where the first one was. First is the lowest
-/// sample number, then the lowest y, then the lowest x: the same for any order of tiles.
-struct InvalidSamples {
-  std::int64_t count = 0;
-  int x = -1, y = -1;        // pixel of the full picture; -1 while count is 0
-  std::int64_t sample = -1;
-
-  void add(int pixel_x, int pixel_y, std::int64_t sample_number);
-  void merge(const InvalidSamples &other);
 };
 
 /// A picture with everything known about it. Pixel (x, y) of the crop window is at

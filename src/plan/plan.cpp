@@ -7,7 +7,7 @@
 
 #include "../core/parallel.h"
 #include "../scene/build.h"
-#include "../wavefront/wave.h"
+#include "columns.h"
 #include "filter.h"
 
 namespace phalanx {
@@ -15,17 +15,22 @@ namespace {
 
 constexpr int kDefaultWaveSize = 2048;
 constexpr int kDefaultTileSize = 32;
-constexpr int kSamplesPerPass = 16;   // fixed: the film's bits depend on it
+constexpr int kSamplesPerPass = 16;   // a power of two
 constexpr int kMaxSide = 65535;       // pixel coordinates travel as 16 bits each
 
-/// Bytes that Embree keeps for a primitive, measured on the scenes of bench/ (medium quality,
-/// robust): see docs/decisions/0004.
+/// Upper estimate of the bytes that Embree keeps for a primitive; 65 (terrain) to 87 (spheres) were
+/// measured on the scenes of bench/ (medium quality, robust).
 constexpr std::int64_t kAccelBytesPerPrimitive = 96;
 
-const char *kind_name(int kind) {
-  static const char *const names[] = {"diffuse", "mirror", "dielectric", "conductor", "black"};
-  return names[kind];
-}
+struct KindFacts {
+  const char *name;
+  bool has_density;
+};
+constexpr KindFacts kKinds[] = {
+#define PHALANX_KIND(constant, name, density) {#name, density != 0},
+    PHALANX_MATERIAL_KINDS(PHALANX_KIND)
+#undef PHALANX_KIND
+};
 
 int pick(int wanted, int otherwise) { return wanted > 0 ? wanted : otherwise; }
 
@@ -64,8 +69,10 @@ void find_uses(Plan &plan, const Scene &scene) {
     plan.spheres |= g.shape == kSpheres;
     plan.disks |= g.shape == kDisks;
   }
-  plan.sample_lights = !scene.lights.empty() && plan.frame.max_depth > 0 &&
-                       (plan.material_kinds[kDiffuse] || plan.material_kinds[kConductor]);
+  bool density = false;
+  for (int kind = 0; kind < kNumMaterialKinds; ++kind)
+    density |= plan.material_kinds[kind] && kKinds[kind].has_density;
+  plan.sample_lights = !scene.lights.empty() && plan.frame.max_depth > 0 && density;
   plan.instances = !scene.instances.empty();
   plan.environment = scene.has_environment;
 }
@@ -75,7 +82,7 @@ void choose_kernels(Plan &plan) {
   if (plan.aovs) plan.kernels.push_back("aov");
   plan.kernels.push_back("bucket");
   for (int kind = 0; kind < kNumMaterialKinds; ++kind)
-    if (plan.material_kinds[kind]) plan.kernels.push_back(fmt::format("shade_{}", kind_name(kind)));
+    if (plan.material_kinds[kind]) plan.kernels.push_back(fmt::format("shade_{}", kKinds[kind].name));
   plan.kernels.push_back("shade_escaped");
   if (plan.sample_lights) plan.kernels.push_back("shadow");
   plan.kernels.push_back("compact");
@@ -116,7 +123,7 @@ void list_left_out(Plan &plan, const Scene &scene) {
   if (!plan.disks) plan.left_out.push_back({"analytic disks", "none in the scene", 0});
   for (int kind = 0; kind < kNumMaterialKinds; ++kind)
     if (!plan.material_kinds[kind])
-      plan.left_out.push_back({fmt::format("shade_{}", kind_name(kind)), "no such material", 0});
+      plan.left_out.push_back({fmt::format("shade_{}", kKinds[kind].name), "no such material", 0});
   if (plan.frame.camera.lens_radius == 0)
     plan.left_out.push_back({"lens samples", "pinhole camera", 0});
 }

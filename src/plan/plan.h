@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../film/film.h"
-#include "../render/options.h"
+#include "options.h"
 #include "../scene/description.h"
 #include "../scene/scene.h"
 

@@ -25,12 +25,12 @@ struct Tracer {
       for (int i = 0; i < PHALANX_AOV_FLOATS; ++i) aov[i] = record[i];
     }
     if (hit.geometry < 0) return scene.environment;
-    switch (scene.materials[scene.geometries[hit.geometry].material].kind) {
-      case kDiffuse: return leaving<kDiffuse>(p, hit);
-      case kMirror: return leaving<kMirror>(p, hit);
-      case kDielectric: return leaving<kDielectric>(p, hit);
-      case kConductor: return leaving<kConductor>(p, hit);
-      default: return leaving<kBlack>(p, hit);
+    switch (scene.geometries[hit.geometry].kind) {
+#define PHALANX_KIND(constant, name, density) \
+  case constant: return leaving<constant>(p, hit);
+      PHALANX_MATERIAL_KINDS(PHALANX_KIND)
+#undef PHALANX_KIND
+      default: return {0, 0, 0};
     }
   }
 
@@ -67,15 +67,17 @@ struct Tracer {
     const Vec3 wi = to_world(s.shading, b.wi);
     if ((b.wi.z > 0.0f) != (dot(wi, s.normal) > 0.0f)) return {0, 0, 0};
     Vec3 weight = b.weight;
+    Vec3 throughput = p.throughput * b.weight;
     if (Kind != kDielectric && p.depth + 1 >= frame.roulette_depth) {
-      const float survival = survival_probability(p.throughput * b.weight);
+      const float survival = survival_probability(throughput);
       if (u_lobe.y >= survival) return {0, 0, 0};
       weight = weight * (1.0f / survival);
+      throughput = throughput * (1.0f / survival);
     }
     PathState next = p;
     next.origin = spawn_origin(s, wi);
     next.direction = normalize(wi);
-    next.throughput = p.throughput * weight;
+    next.throughput = throughput;
     next.pdf = b.pdf;
     next.depth = p.depth + 1;
     return weight * incident(next, nullptr);

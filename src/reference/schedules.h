@@ -2,7 +2,7 @@
 // once per instruction set, like the kernels, so that timings compare schedules and nothing else.
 #pragma once
 #include "../../kernels/path_view.h"
-#include "../report/stats.h"
+#include "../core/stats.h"
 
 namespace phalanx {
 

@@ -4,10 +4,10 @@
 
 #include "../film/film.h"
 #include "../plan/plan.h"
-#include "../report/stats.h"
+#include "../core/stats.h"
 #include "../scene/accel.h"
 #include "../scene/scene.h"
-#include "options.h"
+#include "../plan/options.h"
 
 namespace phalanx {
 

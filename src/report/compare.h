@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "../film/film.h"
-#include "../render/options.h"
-#include "stats.h"
+#include "../plan/options.h"
+#include "../core/stats.h"
 
 namespace phalanx {
 

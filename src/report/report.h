@@ -6,7 +6,7 @@
 #include "../output/image.h"
 #include "../plan/plan.h"
 #include "estimate.h"
-#include "stats.h"
+#include "../core/stats.h"
 
 namespace phalanx {
 

@@ -60,6 +60,7 @@ void GeometryBuilder::finish(const Context &context, ShapeKind kind, size_t firs
   Geometry geometry = {};
   geometry.shape = kind;
   geometry.material = context.material;
+  geometry.kind = scene_.materials[static_cast<size_t>(context.material)].kind;
   geometry.first = static_cast<std::int32_t>(first);
   geometry.first_light = -1;
   geometry.has_normals = scene_.vertex_normals.size() / 3 > context.first_normal ? 1 : 0;

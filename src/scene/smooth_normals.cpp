@@ -14,7 +14,7 @@ void smooth_normals(MeshData &mesh) {
   for (const float x : mesh.positions) largest = std::max(largest, std::fabs(x));
   if (!(largest > 0) || !(largest <= std::numeric_limits<float>::max())) return;
   // Products of lengths fit a float whatever the size of the mesh.
-  const double scale = 1.0 / largest;
+  const double scale = 1.0 / static_cast<double>(largest);
   const auto at = [&](size_t vertex, size_t axis) {
     return static_cast<double>(mesh.positions[vertex * 3 + axis]) * scale;
   };

@@ -5,14 +5,24 @@
 #include "../core/error.h"
 
 namespace phalanx {
+namespace {
+
+/// What the compilers take for granted with AVX2 (Haswell and later).
+bool has_avx2() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+         __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+         __builtin_cpu_supports("f16c") && __builtin_cpu_supports("lzcnt");
+}
+
+}  // namespace
 
 std::vector<std::string> known_isas() { return {"sse4", "avx2", "avx512skx"}; }
 
 bool isa_supported(const std::string &isa) {
   if (isa == "sse4") return __builtin_cpu_supports("sse4.2");
-  if (isa == "avx2") return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (isa == "avx2") return has_avx2();
   if (isa == "avx512skx") {
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+    return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
            __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
            __builtin_cpu_supports("avx512cd");
   }

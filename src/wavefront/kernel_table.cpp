@@ -52,8 +52,11 @@ const Kernels &PHALANX_CAT(kernels, PHALANX_ISA)() {
       KERNEL(intersect),
       KERNEL(aov),
       KERNEL(bucket),
-      {KERNEL(shade_diffuse), KERNEL(shade_mirror), KERNEL(shade_dielectric),
-       KERNEL(shade_conductor), KERNEL(shade_black)},
+      {
+#define PHALANX_KIND(constant, name, density) KERNEL(shade_##name),
+          PHALANX_MATERIAL_KINDS(PHALANX_KIND)
+#undef PHALANX_KIND
+      },
       KERNEL(shade_escaped),
       KERNEL(shadow),
       KERNEL(compact),

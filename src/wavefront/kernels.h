@@ -7,7 +7,7 @@
 #include <string>
 
 #include "../../kernels/path_view.h"
-#include "../report/stats.h"
+#include "../core/stats.h"
 
 namespace phalanx {
 
@@ -22,7 +22,7 @@ struct Kernels {
                     int32 coherent);
   void (*aov)(const SceneView &, const TileView &, const WaveView &, const int32 *slots,
               int32 count);
-  void (*bucket)(const SceneView &, const WaveView &, int32 num_slots, int32 *counts);
+  void (*bucket)(const WaveView &, int32 num_slots, int32 *counts);
   int32 (*shade[kNumMaterialKinds])(const SceneView &, const FrameView &, const TileView &,
                                     const WaveView &, const int32 *slots, int32 count,
                                     int32 num_shadow);

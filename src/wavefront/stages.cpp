@@ -8,11 +8,10 @@ const char *stage_name(int stage) {
     case kStageIntersect: return "intersect";
     case kStageAov: return "aov";
     case kStageBucket: return "bucket";
-    case kStageShade + int{kDiffuse}: return "shade diffuse";
-    case kStageShade + int{kMirror}: return "shade mirror";
-    case kStageShade + int{kDielectric}: return "shade dielectric";
-    case kStageShade + int{kConductor}: return "shade conductor";
-    case kStageShade + int{kBlack}: return "shade black";
+#define PHALANX_KIND(constant, name, density) \
+  case kStageShade + int{constant}: return "shade " #name;
+      PHALANX_MATERIAL_KINDS(PHALANX_KIND)
+#undef PHALANX_KIND
     case kStageEscaped: return "shade escaped";
     case kStageShadow: return "shadow";
     case kStageCompact: return "compact";

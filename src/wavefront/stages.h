@@ -5,7 +5,7 @@
 
 #include "../../kernels/scene_view.h"
 #include "../core/timer.h"
-#include "../report/stats.h"
+#include "../core/stats.h"
 
 namespace phalanx {
 
@@ -30,12 +30,14 @@ class StageClock {
   explicit StageClock(int width) : width_(width) {}
 
   void start() { last_ = wall_seconds(); }
-  /// The stage that just ended worked on `items` paths, a gang at a time.
-  void lap(int stage, std::int64_t items) {
+  /// The stage that just ended worked on `items` paths, a gang at a time, out of `slots` that it
+  /// looked at.
+  void lap(int stage, std::int64_t items) { lap(stage, items, items); }
+  void lap(int stage, std::int64_t items, std::int64_t slots) {
     const double now = wall_seconds();
     seconds_[stage] += now - last_;
     items_[stage] += items;
-    lanes_[stage] += (items + width_ - 1) / width_ * width_;
+    lanes_[stage] += (slots + width_ - 1) / width_ * width_;
     last_ = now;
   }
   /// Adds this thread's figures to `stages` (kNumStages entries).

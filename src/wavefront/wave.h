@@ -24,7 +24,4 @@ class Wave {
   WaveView view_ = {};
 };
 
-/// The columns of a wave, with the bytes that each costs a path; `plan` says what the scene uses.
-std::vector<Column> wave_columns(const Plan &plan);
-
 }  // namespace phalanx

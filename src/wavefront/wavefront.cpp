@@ -14,7 +14,7 @@ void render_wavefront(const Kernels &k, const Plan &plan, const SceneView &scene
   for (;;) {
     // Compact: which paths go on, which slots are free.
     const int32 num_active = k.compact(wave);
-    clock.lap(kStageCompact, wave.capacity);
+    clock.lap(kStageCompact, num_active, wave.capacity);
 
     // Regenerate: new camera samples in the free slots.
     const int32 num_fresh = std::min(wave.capacity - num_active, tile.num_samples - next_sample);
@@ -36,8 +36,8 @@ void render_wavefront(const Kernels &k, const Plan &plan, const SceneView &scene
 
     // Bucket: order the paths by the kind of material they hit.
     int32 counts[kNumMaterialKinds + 1];
-    k.bucket(scene, wave, wave.capacity, counts);
-    clock.lap(kStageBucket, num_fresh + num_active);
+    k.bucket(wave, wave.capacity, counts);
+    clock.lap(kStageBucket, num_fresh + num_active, wave.capacity);
 
     // Shade: one kernel per kind; each appends its shadow rays.
     const int32 *slots = wave.order;

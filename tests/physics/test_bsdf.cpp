@@ -37,8 +37,8 @@ Mean albedo(const Material &m, Vec3 wo, int samples) {
   Random random(23);
   Mean mean;
   for (int i = 0; i < samples; ++i)
-    mean.add(static_cast<double>(
-        sample_bsdf<Kind>(m, 1, wo, random.square(), random.unit()).weight.x));
+    mean.add(
+        static_cast<double>(sample_bsdf<Kind>(m, 1, wo, random.square(), random.unit()).weight.x));
   return mean;
 }
 
@@ -77,9 +77,9 @@ TEST_CASE("bsdf: weight times density is f cos, and both agree on the density") 
       const double wo_h = 0.5 * static_cast<double>(length(wo + s.wi));
       const double condition =
           Kind == kConductor ? std::max(1.0, 0.01 / (static_cast<double>(m.alpha) * wo_h)) : 1.0;
-      for (const double d : {relative(v.pdf, s.pdf), relative(v.f_cos.x, s.weight.x * s.pdf),
-                             relative(v.f_cos.y, s.weight.y * s.pdf),
-                             relative(v.f_cos.z, s.weight.z * s.pdf)})
+      for (const double d :
+           {relative(v.pdf, s.pdf), relative(v.f_cos.x, s.weight.x * s.pdf),
+            relative(v.f_cos.y, s.weight.y * s.pdf), relative(v.f_cos.z, s.weight.z * s.pdf)})
         worst = std::max(worst, d / condition);
     }
     return worst;

@@ -22,14 +22,16 @@ constexpr float kRough[] = {0.1f, 0.25f, 0.5f, 0.75f, 1.0f};
 /// Where a sampled direction counts, and the density there.
 struct DirectionSpace {  // cosine and azimuth of wi itself
   NormalSpace::Place place(Vec3, Vec3 wi) const {
-    return {static_cast<double>(wi.z), azimuth(static_cast<double>(wi.x), static_cast<double>(wi.y))};
+    return {static_cast<double>(wi.z),
+            azimuth(static_cast<double>(wi.x), static_cast<double>(wi.y))};
   }
   template <typename Eval>
   double density(const Eval &eval, Vec3, double cosine, double phi) const {
     const double sine = std::sqrt(1 - cosine * cosine);
-    return static_cast<double>(eval(vec3(static_cast<float>(sine * std::cos(phi)),
-                                         static_cast<float>(sine * std::sin(phi)),
-                                         static_cast<float>(cosine))).pdf);
+    return static_cast<double>(
+        eval(vec3(static_cast<float>(sine * std::cos(phi)),
+                  static_cast<float>(sine * std::sin(phi)), static_cast<float>(cosine)))
+            .pdf);
   }
 };
 struct HalfVectorSpace {  // the stretched half vector: for lobes sharper than the cells
@@ -66,7 +68,10 @@ void check_sampling(const Material &m, Vec3 wo, const Space &space, int samples)
   };
   CAPTURE(m.alpha);
   CAPTURE(wo.z);
+  // Rounded directions know their half vector to 3e-8 / wo.z, against cells of alpha / 64.
+  const bool resolved = Kind != kConductor || wo.z * m.alpha > 9e-6f;
   for (const Histogram *histogram : {&coarse, &fine}) {
+    if (histogram == &fine && !resolved) continue;
     const Fit fit = chi_square_fit(*histogram, cell_masses(histogram->grid(), density));
     INFO(fit.text());
     CHECK(fit.accepted());
@@ -91,11 +96,9 @@ TEST_CASE("conductor: rough lobes follow their density in direction space") {
 TEST_CASE("conductor: sharp lobes follow their density in half-vector space (M1)") {
   for (const float alpha : kSharp)
     for (const Vec3 wo : local_directions()) {
-      // At wo.n = 1e-3 rounded directions know their half vector to 6e-8 / 1e-3: too coarse for
-      // alpha = 1e-3 on cells of a 64th (STABILITY asks for alpha >= 5e-3).
-      if (wo.z * alpha < 2e-6f) continue;
-      check_sampling<kConductor>(conductor(alpha), wo, HalfVectorSpace{{static_cast<double>(alpha)}},
-                                 num_samples());
+      if (wo.z * alpha < 2e-6f) continue;  // less than a cell of the coarse grid
+      check_sampling<kConductor>(conductor(alpha), wo,
+                                 HalfVectorSpace{{static_cast<double>(alpha)}}, num_samples());
     }
 }
 

@@ -74,7 +74,8 @@ TEST_CASE("camera: filter offsets are distributed like the filter's weight") {
         const double x0 = -radius + bin * radius / 16, x1 = x0 + radius / 16;
         const double mass = integrate(weight, x0, x1, 1e-10, 10) / total;
         const double n = static_cast<double>(histogram.total());
-        const double off = std::fabs(static_cast<double>(histogram.counts()[static_cast<std::size_t>(bin)]) / n - mass);
+        const double off = std::fabs(
+            static_cast<double>(histogram.counts()[static_cast<std::size_t>(bin)]) / n - mass);
         CAPTURE(bin);
         CHECK(off < 1.5e-3 + 5 * std::sqrt(mass / n));
       }
@@ -85,7 +86,8 @@ TEST_CASE("camera: filter offsets are distributed like the filter's weight") {
 TEST_CASE("camera: filter offsets at the table's nodes and ends") {
   std::vector<float> offsets;
   for (int i = 0; i <= PHALANX_FILTER_CELLS; ++i)
-    offsets.push_back(static_cast<float>(i * i) / (PHALANX_FILTER_CELLS * PHALANX_FILTER_CELLS) - 0.5f);
+    offsets.push_back(static_cast<float>(i * i) / (PHALANX_FILTER_CELLS * PHALANX_FILTER_CELLS) -
+                      0.5f);
   const FrameView frame = make_frame_view(offsets);
   CHECK(filter_offset(frame, 0.0f) == -0.5f);
   CHECK(filter_offset(frame, 0.5f) == -0.25f);
@@ -98,7 +100,8 @@ TEST_CASE("camera: a pinhole ray goes through its pixel") {
   for (const int x : {0, 1, 31, 32, 63})
     for (const int y : {0, 23, 24, 47}) {
       const Ray r = camera_ray(frame, x, y, pixel_scramble(x, y, 0), 5);
-      CHECK((r.origin.x == c.position.x && r.origin.y == c.position.y && r.origin.z == c.position.z));
+      CHECK(
+          (r.origin.x == c.position.x && r.origin.y == c.position.y && r.origin.z == c.position.z));
       CHECK(std::fabs(length(r.direction) - 1) < 1e-6f);
       const double depth = static_cast<double>(dot(r.direction, c.forward));
       const double sx = static_cast<double>(dot(r.direction, c.right)) / depth;
@@ -138,8 +141,9 @@ TEST_CASE("camera: all rays of one film point meet in the plane of focus") {
       frame.camera.position = pinhole.position;
       const Vec3 right = frame.camera.right, up = frame.camera.up, forward = frame.camera.forward;
       const float scale = 0.4f / 24;
-      const Vec3 aim = frame.camera.position + (forward + right * ((10.5f - 32) * scale) +
-                                                up * ((24 - 40.5f) * scale)) * focus;
+      const Vec3 aim =
+          frame.camera.position +
+          (forward + right * ((10.5f - 32) * scale) + up * ((24 - 40.5f) * scale)) * focus;
       Histogram lens({8, 8, 0, 1, 0, 2 * kPi});
       double worst = 0;
       for (int i = 0; i < 4096; ++i) {
@@ -166,7 +170,8 @@ TEST_CASE("camera: a lens of radius 0 is the pinhole, bit for bit (C3)") {
   FrameView other = frame;
   other.camera.focus_distance = 123;
   for (int i = 0; i < 100; ++i) {
-    const Ray a = camera_ray(frame, i % 64, i % 48, 7, i), b = camera_ray(other, i % 64, i % 48, 7, i);
+    const Ray a = camera_ray(frame, i % 64, i % 48, 7, i),
+              b = camera_ray(other, i % 64, i % 48, 7, i);
     CHECK((a.direction.x == b.direction.x && a.direction.y == b.direction.y &&
            a.direction.z == b.direction.z && a.origin.x == b.origin.x));
   }

@@ -59,8 +59,8 @@ TEST_CASE("dielectric: R + T = 1 for energy; radiance carries 1 / eta^2 into the
 TEST_CASE("dielectric: the factors in and out of a slab cancel") {
   const Vec3 wo = at_angle(0.7, 2);
   const BsdfSample into = sample_dielectric(dielectric(1.5f), 1, wo, kMost);
-  const BsdfSample out = sample_dielectric(dielectric(1.5f), 0, vec3(-into.wi.x, -into.wi.y, -into.wi.z),
-                                           kMost);
+  const BsdfSample out =
+      sample_dielectric(dielectric(1.5f), 0, vec3(-into.wi.x, -into.wi.y, -into.wi.z), kMost);
   CHECK(into.weight.x * out.weight.x == doctest::Approx(1).epsilon(1e-6));
   CHECK(out.wi.x == doctest::Approx(-wo.x).epsilon(1e-6));
   CHECK(out.wi.y == doctest::Approx(-wo.y).epsilon(1e-6));
@@ -82,7 +82,8 @@ TEST_CASE("dielectric: refraction obeys Snell's law, stays in the plane and has 
     const double sine_i = std::hypot(static_cast<double>(wo.x), static_cast<double>(wo.y));
     const double sine_t = std::hypot(static_cast<double>(s.wi.x), static_cast<double>(s.wi.y));
     worst_sine = std::max(worst_sine, std::fabs(sine_i - eta * sine_t));
-    worst_plane = std::max(worst_plane, static_cast<double>(std::fabs(s.wi.x * wo.y - s.wi.y * wo.x)));
+    worst_plane =
+        std::max(worst_plane, static_cast<double>(std::fabs(s.wi.x * wo.y - s.wi.y * wo.x)));
   }
   CHECK(worst_length < 1e-6);
   CHECK(worst_sine < 2e-6);

@@ -174,7 +174,8 @@ TEST_CASE("path_vertex: light sampling and scattering together give rho E / pi (
     }
     CAPTURE(sampler);
     CHECK(total.p(0.27706321) > test::alpha());
-    CHECK(total.mean() == doctest::Approx(0.27706321).epsilon(sampler == kSobolSampler ? 1e-4 : 1e-2));
+    CHECK(total.mean() ==
+          doctest::Approx(0.27706321).epsilon(sampler == kSobolSampler ? 1e-4 : 1e-2));
     CHECK(by_light.mean() > 0.05);
     CHECK(by_scattering.mean() > 0.05);
   }
@@ -273,11 +274,16 @@ TEST_CASE("path_vertex_any: picks the kind of the surface's material") {
     const Geometry &g = scene.geometries[static_cast<std::size_t>(ray.hit.geometry)];
     const auto by_kind = [&] {
       switch (scene.materials[static_cast<std::size_t>(g.material)].kind) {
-        case kDiffuse: return path_vertex<kDiffuse>(view, frame, p, ray.hit);
-        case kMirror: return path_vertex<kMirror>(view, frame, p, ray.hit);
-        case kDielectric: return path_vertex<kDielectric>(view, frame, p, ray.hit);
-        case kConductor: return path_vertex<kConductor>(view, frame, p, ray.hit);
-        default: return path_vertex<kBlack>(view, frame, p, ray.hit);
+        case kDiffuse:
+          return path_vertex<kDiffuse>(view, frame, p, ray.hit);
+        case kMirror:
+          return path_vertex<kMirror>(view, frame, p, ray.hit);
+        case kDielectric:
+          return path_vertex<kDielectric>(view, frame, p, ray.hit);
+        case kConductor:
+          return path_vertex<kConductor>(view, frame, p, ray.hit);
+        default:
+          return path_vertex<kBlack>(view, frame, p, ray.hit);
       }
     };
     const Vertex a = path_vertex_any(view, frame, p, ray.hit), b = by_kind();

@@ -27,7 +27,8 @@ bool meets(const Light &light, Vec3 origin, Vec3 direction, Vec3 &position, Vec3
     position = light.p + normal * light.radius;
     return true;
   }
-  const ShapeHit hit = intersect_disk(origin, direction, {light.p, light.a, light.b}, 0, PHALANX_FAR);
+  const ShapeHit hit =
+      intersect_disk(origin, direction, {light.p, light.a, light.b}, 0, PHALANX_FAR);
   position = origin + direction * hit.t;
   if (light.kind == kDiskLight) return hit.t > 0;
   const double t = static_cast<double>(dot(light.p - origin, light.normal)) /
@@ -69,14 +70,16 @@ TEST_CASE("light: the density integrates to 1 over directions that meet the ligh
       disk_light({0.1f, 0.2f, 1.5f}, normalize(vec3(0.2f, -0.3f, -1)), 0.8f),
       sphere_light({0, 0.1f, 0.2f}, 0.7f)};
   for (const Light &light : lights)
-    for (const Vec3 origin : {vec3(0.1f, 0.2f, 0.4f), vec3(0.4f, 0.9f, -0.1f), vec3(0, 1.2f, 1.9f)}) {
+    for (const Vec3 origin :
+         {vec3(0.1f, 0.2f, 0.4f), vec3(0.4f, 0.9f, -0.1f), vec3(0, 1.2f, 1.9f)}) {
       Random random(1);
       Mean mean;
       for (int i = 0; i < num_samples() / 4; ++i) {
         const Vec3 direction = random.direction();
         Vec3 position, normal;
         const bool met = meets(light, origin, direction, position, normal);
-        mean.add(met ? 4 * kPi * static_cast<double>(light_pdf(light, origin, position, normal)) : 0);
+        mean.add(met ? 4 * kPi * static_cast<double>(light_pdf(light, origin, position, normal))
+                     : 0);
       }
       CAPTURE(light.kind);
       CHECK(mean.mean() == doctest::Approx(1).epsilon(0.05));
@@ -97,13 +100,13 @@ TEST_CASE("light: a sample carries the density that light_pdf gives at its point
     const Vec3 origin = random.point(4);
     const LightSample s = sample_light(scene.view, origin, random.square(), random.square());
     if (!(s.pdf > 0)) continue;
-    const Vec3 n = kind == kSphereLight ? normalize(s.position - p) : light.normal;
+    const Vec3 n = kind == kSphereLight ? normalize(s.point - p) : light.normal;
     // Far below the horizon of a plane the distance to it is what rounding leaves.
     if (std::fabs(dot(n, s.direction)) < 1e-3f) continue;
-    REQUIRE(relative_error(static_cast<double>(light_pdf(light, origin, s.position, n)),
+    REQUIRE(relative_error(static_cast<double>(light_pdf(light, origin, s.point, n)),
                            static_cast<double>(s.pdf)) < 2e-3);
     REQUIRE(std::fabs(length(s.direction) - 1) < 1e-6f);
-    REQUIRE(length(origin + s.direction * s.distance - s.position) < 4e-6f);
+    REQUIRE(length(origin + s.direction * s.distance - s.point) < 4e-6f);
   }
 }
 
@@ -128,7 +131,8 @@ TEST_CASE("sphere light: E = pi L (R/d)^2 cos, down to R/d = 1e-4 (L3)") {
   const Vec3 w = normalize(vec3(0.48f, -0.36f, 0.8f));
   for (const float ratio : {0.5f, 0.1f, 1e-2f, 1e-3f, 1e-4f}) {
     const LightScene sphere({sphere_light(w * 3, 3 * ratio)});
-    const double expected = kPi * std::pow(static_cast<double>(ratio), 2) * static_cast<double>(w.z);
+    const double expected =
+        kPi * std::pow(static_cast<double>(ratio), 2) * static_cast<double>(w.z);
     CAPTURE(ratio);
     CHECK(relative_error(irradiance(sphere.view, kOrigin, kUp, 14), expected) < 1e-3);
   }
@@ -161,8 +165,8 @@ TEST_CASE("light: backs are black, two-sided lights are not (L10)") {
   }
   Light inside = sphere_light({0, 0, 0}, 1);
   const LightScene one_sided({inside});
-  CHECK(is_black(sample_light(one_sided.view, vec3(0.1f, 0, 0), vec2(0.5f, 0.5f), vec2(0.3f, 0.3f))
-                     .radiance));
+  CHECK(is_black(
+      sample_light(one_sided.view, vec3(0.1f, 0, 0), vec2(0.5f, 0.5f), vec2(0.3f, 0.3f)).radiance));
 }
 
 TEST_CASE("light: exactly in the plane of the light nothing arrives, and nothing is NaN (L10)") {
@@ -180,7 +184,8 @@ TEST_CASE("light: grazing and touching receivers get finite samples (L7, G8)") {
   Random random(5);
   for (const float height : {1.0f, 1e-3f, 1e-6f, 1e-12f, 1e-19f, 1e-30f})
     for (const bool sphere : {false, true}) {
-      const LightScene scene({sphere ? sphere_light({0, 0, height + 1}, 1) : overhead_quad(2, height)});
+      const LightScene scene(
+          {sphere ? sphere_light({0, 0, height + 1}, 1) : overhead_quad(2, height)});
       for (int i = 0; i < 20000; ++i) {
         const LightSample s = sample_light(scene.view, kOrigin, random.square(), random.square());
         REQUIRE(is_finite(s.pdf));
@@ -194,8 +199,8 @@ TEST_CASE("light: grazing and touching receivers get finite samples (L7, G8)") {
 TEST_CASE("light: irradiance does not depend on the unit of length (S1)") {
   const FlushDenormals flush;
   const auto expect = [](float scale, bool sphere) {
-    const LightScene scene({sphere ? sphere_light({0, 0, 2 * scale}, scale)
-                                   : overhead_quad(2 * scale, scale)});
+    const LightScene scene(
+        {sphere ? sphere_light({0, 0, 2 * scale}, scale) : overhead_quad(2 * scale, scale)});
     return irradiance(scene.view, kOrigin, kUp, 12);
   };
   const double quad = expect(1, false), sphere = expect(1, true);
@@ -222,16 +227,21 @@ TEST_CASE("light: the error bound moves samples towards the receiver") {
   const LightScene below({light});
   const Vec2 u = vec2(0.25f, 0.75f);
   const LightSample s = sample_light(below.view, kOrigin, u, u);
-  CHECK(s.position.z == 0.875f);
-  CHECK(s.distance == doctest::Approx(length(s.position)));
+  CHECK(s.point.z == 1);
+  CHECK((s.direction * s.distance).z == doctest::Approx(0.875));
   light.two_sided = 1;
   const LightScene above({light});
-  CHECK(sample_light(above.view, vec3(0, 0, 5), u, u).position.z == 1.125f);
+  const LightSample from_above = sample_light(above.view, vec3(0, 0, 5), u, u);
+  CHECK(5 + (from_above.direction * from_above.distance).z == doctest::Approx(1.125));
 }
 
 TEST_CASE("light: choice follows select_pdf") {
-  for (const std::vector<double> &weights :
-       {std::vector<double>{1}, {1, 1}, {3, 1}, {1, 2, 3, 4, 5}, {0, 1, 0, 5}, {1e-3, 1, 1e-6, 7, 7}}) {
+  for (const std::vector<double> &weights : {std::vector<double>{1},
+                                             {1, 1},
+                                             {3, 1},
+                                             {1, 2, 3, 4, 5},
+                                             {0, 1, 0, 5},
+                                             {1e-3, 1, 1e-6, 7, 7}}) {
     std::vector<Light> lights(weights.size(), overhead_quad(2, 1));
     const LightScene scene(lights, weights);
     std::vector<Mean> chosen(weights.size());
@@ -246,10 +256,14 @@ TEST_CASE("light: choice follows select_pdf") {
       const double pdf = static_cast<double>(scene.view.lights[j].select_pdf);
       sum += pdf;
       CAPTURE(j);
-      if (pdf == 0) CHECK(chosen[j].mean() == 0);
-      else if (pdf < 1e-4) CHECK(chosen[j].mean() < 1e-4);
-      else if (pdf < 1) CHECK(chosen[j].p(pdf) > test::alpha());
-      else CHECK(chosen[j].mean() == 1);
+      if (pdf == 0)
+        CHECK(chosen[j].mean() == 0);
+      else if (pdf < 1e-4)
+        CHECK(chosen[j].mean() < 1e-4);
+      else if (pdf < 1)
+        CHECK(chosen[j].p(pdf) > test::alpha());
+      else
+        CHECK(chosen[j].mean() == 1);
     }
     CHECK(sum == doctest::Approx(1));
   }

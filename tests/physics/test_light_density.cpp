@@ -37,9 +37,12 @@ struct PlanarSpace {  // quads (u, v), triangles (u + v, v / (u + v)), disks (r^
     const double bb = dot64(light.b, light.b), ra = dot64(r, light.a), rb = dot64(r, light.b);
     const double det = aa * bb - ab * ab;
     const double u = (ra * bb - rb * ab) / det, v = (rb * aa - ra * ab) / det;
-    if (light.kind == kDiskLight) histogram.add(u * u + v * v, azimuth(u, v));
-    else if (light.kind == kTriangleLight) histogram.add(u + v, u + v > 0 ? v / (u + v) : 0);
-    else histogram.add(u, v);
+    if (light.kind == kDiskLight)
+      histogram.add(u * u + v * v, azimuth(u, v));
+    else if (light.kind == kTriangleLight)
+      histogram.add(u + v, u + v > 0 ? v / (u + v) : 0);
+    else
+      histogram.add(u, v);
   }
   SurfacePoint at(double x, double y) const {
     double u = x, v = y, area = std::sqrt(dot64(cross(light.a, light.b), cross(light.a, light.b)));
@@ -79,7 +82,7 @@ void check_sampling(const Light &light, Vec3 origin, const Space &space) {
     const LightSample s = sample_light(scene.view, origin, random.square(), random.square());
     for (Histogram *histogram : {&coarse, &fine}) {
       if (s.pdf > 0)
-        space.count(*histogram, s.position);
+        space.count(*histogram, s.point);
       else
         histogram->add_invalid();
     }
@@ -106,7 +109,8 @@ const Vec3 kViews[] = {{0.3f, 0.2f, -3}, {4, -1, 0.5f}, {0.25f, 0.4f, 0.9f}, {50
 }  // namespace
 
 TEST_CASE("quad light: points follow light_pdf, which integrates to 1") {
-  const Light light = planar_light(kQuadLight, {-0.5f, -0.2f, 1}, {1, 0.1f, 0.2f}, {0.2f, 1.5f, -0.1f});
+  const Light light =
+      planar_light(kQuadLight, {-0.5f, -0.2f, 1}, {1, 0.1f, 0.2f}, {0.2f, 1.5f, -0.1f});
   for (const Vec3 origin : kViews) check_sampling(light, origin, PlanarSpace{light});
 }
 
@@ -126,7 +130,8 @@ TEST_CASE("sphere light: from outside, points fill the cap in sight by light_pdf
     const Light light = sphere_light({0.2f, -0.4f, 0.3f}, 0.7f);
     const Vec3 away = normalize(vec3(0.3f, 0.5f, -0.8f));
     const Vec3 origin = light.p + away * f(d(light.radius) / ratio);
-    const double true_ratio = d(light.radius) / std::sqrt(dot64(origin - light.p, origin - light.p));
+    const double true_ratio =
+        d(light.radius) / std::sqrt(dot64(origin - light.p, origin - light.p));
     check_sampling(light, origin, SphereSpace{light, make_frame(away), true_ratio});
   }
 }

@@ -31,7 +31,8 @@ TEST_CASE("ggx: D agrees with double precision down to alpha = 1e-4 (M1)") {
     double worst = 0;
     for (int i = 0; i < 20000; ++i) {
       const double a = static_cast<double>(alpha), c = 0.9999 * random.fine(), r2 = c / (1 - c);
-      const double t = a * std::sqrt(r2), z = 1 / std::sqrt(1 + t * t), phi = 2 * kPi * random.fine();
+      const double t = a * std::sqrt(r2), z = 1 / std::sqrt(1 + t * t),
+                   phi = 2 * kPi * random.fine();
       const Vec3 m = vec3(static_cast<float>(t * z * std::cos(phi)),
                           static_cast<float>(t * z * std::sin(phi)), static_cast<float>(z));
       const double exact = ggx_d64(r2, a);
@@ -103,7 +104,8 @@ TEST_CASE("ggx: visible normals are unit, above the horizon and on the side of w
     for (const float z : {1.0f, 0.5f, 1e-3f, 1e-7f}) {
       const Vec3 wo = normalize(vec3(std::sqrt(1 - z * z), 0, z));
       for (int i = 0; i < 20000; ++i) {
-        const Vec2 u = i < 4 ? vec2(i & 1 ? 1 - 0x1p-24f : 0, i & 2 ? 1 - 0x1p-24f : 0) : random.square();
+        const Vec2 u =
+            i < 4 ? vec2(i & 1 ? 1 - 0x1p-24f : 0, i & 2 ? 1 - 0x1p-24f : 0) : random.square();
         const Vec3 m = sample_ggx_visible(wo, alpha, u);
         REQUIRE(all_finite(m));
         REQUIRE(m.z >= 0.0f);

@@ -47,20 +47,17 @@ double rmse_slope(int sampler, const F &f, double truth, int lo, int hi, int run
 
 TEST_CASE("sobol: error of a smooth integral falls at least as n^-1.2") {
   const double slope = rmse_slope(kSobolSampler, smooth, kSmooth, 4, 10, 256);
-  MESSAGE("slope " << slope);
   CHECK(slope <= -1.2);
 }
 
 TEST_CASE("sobol: error of an edge falls as n^-0.75") {
   const double slope = rmse_slope(kSobolSampler, edge, kQuarterDisk, 4, 12, 512);
-  MESSAGE("slope " << slope);
   CHECK(std::abs(slope + 0.75) <= 0.05);
 }
 
 TEST_CASE("independent: error falls as n^-0.5") {
   const double of_smooth = rmse_slope(kIndependentSampler, smooth, kSmooth, 2, 12, 1024);
   const double of_edge = rmse_slope(kIndependentSampler, edge, kQuarterDisk, 2, 12, 1024);
-  MESSAGE("slopes " << of_smooth << " and " << of_edge);
   CHECK(std::abs(of_smooth + 0.5) <= 0.03);
   CHECK(std::abs(of_edge + 0.5) <= 0.03);
 }

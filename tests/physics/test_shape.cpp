@@ -65,7 +65,8 @@ TEST_CASE("sphere: hit or miss, and distance, agree with an exact oracle from af
             ++wrong;
           } else if (exact.met) {
             REQUIRE(hit.far_root == 0);
-            const auto error = static_cast<double>(std::fabs(real(hit.t) - exact.first) / real(radius));
+            const auto error =
+                static_cast<double>(std::fabs(real(hit.t) - exact.first) / real(radius));
             worst = std::max(worst, error);
             off += error > 1e-2;
           }
@@ -86,13 +87,16 @@ TEST_CASE("sphere: roots lie on the sphere, from inside and outside, in units of
   Random random(2);
   for (int i = 0; i < 100000; ++i) {
     const Sphere s = {random.point(2), random.between(0.1f, 2)};
-    const Vec3 origin = random.point(4), inside = s.center + random.direction() * (s.radius * random.unit());
+    const Vec3 origin = random.point(4),
+               inside = s.center + random.direction() * (s.radius * random.unit());
     const Vec3 direction = (inside - origin) * std::exp(random.between(-5, 5));
     const Crossings exact = exact_sphere(origin, direction, s);
     const float length_of = length(direction);
     if (!exact.met || !(length_of > 1e-4f)) continue;
-    REQUIRE(std::fabs(real(sphere_root(origin, direction, s, 0)) - exact.first) * real(length_of) < 1e-3L);
-    REQUIRE(std::fabs(real(sphere_root(origin, direction, s, 1)) - exact.second) * real(length_of) < 1e-3L);
+    REQUIRE(std::fabs(real(sphere_root(origin, direction, s, 0)) - exact.first) * real(length_of) <
+            1e-3L);
+    REQUIRE(std::fabs(real(sphere_root(origin, direction, s, 1)) - exact.second) * real(length_of) <
+            1e-3L);
     const ShapeHit hit = intersect_sphere(origin, direction, s, 0, PHALANX_FAR);
     const float outside = length(origin - s.center) - s.radius;
     if (std::fabs(outside) < 1e-5f) continue;
@@ -150,7 +154,8 @@ TEST_CASE("disk: agrees with a double-precision oracle") {
     const Frame f = make_frame(random.direction());
     const float radius = random.between(0.1f, 2);
     const Disk disk = {random.point(1), f.s * radius, f.t * radius};
-    const Vec3 origin = random.point(4), direction = normalize(disk.center + random.point(2) - origin);
+    const Vec3 origin = random.point(4),
+               direction = normalize(disk.center + random.point(2) - origin);
     const ShapeHit hit = intersect_disk(origin, direction, disk, 0, PHALANX_FAR);
     const auto dot64 = [](Vec3 a, Vec3 b) {
       return static_cast<double>(a.x) * static_cast<double>(b.x) +

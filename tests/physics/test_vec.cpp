@@ -43,12 +43,13 @@ TEST_CASE("make_frame: no loss near the poles and at the change of sign") {
   Random random(2);
   double worst = 0;
   for (int i = 0; i < 200000; ++i) {
-    const double sine = std::pow(10.0, -12 * random.fine()), phi = 6.283185307179586 * random.fine();
+    const double sine = std::pow(10.0, -12 * random.fine()),
+                 phi = 6.283185307179586 * random.fine();
     const double cosine = std::sqrt(1 - sine * sine);
     for (const double z : {cosine, -cosine})
-      worst = std::max(worst, frame_error({static_cast<float>(sine * std::cos(phi)),
-                                           static_cast<float>(sine * std::sin(phi)),
-                                           static_cast<float>(z)}));
+      worst = std::max(
+          worst, frame_error({static_cast<float>(sine * std::cos(phi)),
+                              static_cast<float>(sine * std::sin(phi)), static_cast<float>(z)}));
     const float tiny = static_cast<float>(random.chance(0.5) ? -sine : sine);
     worst = std::max(worst, frame_error({static_cast<float>(std::cos(phi)),
                                          static_cast<float>(std::sin(phi)), tiny * 1e-6f}));

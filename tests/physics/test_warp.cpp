@@ -154,7 +154,8 @@ TEST_CASE("warp: disk of a stratified square is area-preserving cell by cell") {
     const float h = 0x1p-7f;
     const Vec2 u = vec2(random.between(h, 1 - h), random.between(h, 1 - h));
     const float a = 2 * u.x - 1, b = 2 * u.y - 1;
-    if (std::fabs(std::fabs(a) - std::fabs(b)) < 4 * h || std::max(std::fabs(a), std::fabs(b)) < 0.1f)
+    if (std::fabs(std::fabs(a) - std::fabs(b)) < 4 * h ||
+        std::max(std::fabs(a), std::fabs(b)) < 0.1f)
       continue;  // the map has a crease on the diagonals
     const Vec2 px = square_to_disk(vec2(u.x + h, u.y)), mx = square_to_disk(vec2(u.x - h, u.y));
     const Vec2 py = square_to_disk(vec2(u.x, u.y + h)), my = square_to_disk(vec2(u.x, u.y - h));

@@ -17,7 +17,9 @@ class Random {
   /// In [0, 1), with 53 bits.
   double fine() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   float between(float lo, float hi) { return lo + (hi - lo) * unit(); }
-  int below(int n) { return static_cast<int>((bits() >> 32) * static_cast<std::uint64_t>(n) >> 32); }
+  int below(int n) {
+    return static_cast<int>((bits() >> 32) * static_cast<std::uint64_t>(n) >> 32);
+  }
   bool chance(double probability) { return fine() < probability; }
   Vec2 square() {
     const float x = unit();

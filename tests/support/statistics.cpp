@@ -105,8 +105,9 @@ Fit chi_square_fit(const Histogram &observed, const std::vector<double> &masses)
 }
 
 std::string Fit::text() const {
-  return fmt::format("p = {:.3g}, chi2 = {:.1f} with {} dof, density integrates to {:.6f}, lost {:.6f}, {} stray",
-                     p, statistic, dof, mass, lost, stray);
+  return fmt::format(
+      "p = {:.3g}, chi2 = {:.1f} with {} dof, density integrates to {:.6f}, lost {:.6f}, {} stray",
+      p, statistic, dof, mass, lost, stray);
 }
 
 }  // namespace phalanx::test

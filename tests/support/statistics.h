@@ -60,7 +60,8 @@ double integrate(const F &f, double a, double b, double eps, int depth) {
     double refine(double a, double b, double fa, double fm, double fb, double whole, double eps,
                   int depth) const {
       const double m = 0.5 * (a + b), fl = f(0.5 * (a + m)), fr = f(0.5 * (m + b));
-      const double left = (m - a) / 6 * (fa + 4 * fl + fm), right = (b - m) / 6 * (fm + 4 * fr + fb);
+      const double left = (m - a) / 6 * (fa + 4 * fl + fm),
+                   right = (b - m) / 6 * (fm + 4 * fr + fb);
       const double error = left + right - whole;
       if (depth <= 0 || std::fabs(error) <= 15 * eps) return left + right + error / 15;
       return refine(a, m, fa, fl, fm, left, eps / 2, depth - 1) +
@@ -132,12 +133,12 @@ std::vector<double> cell_masses(const Grid &grid, const F &density) {
 }
 
 struct Fit {
-  double p = 0;               // of the chi-square test; 0 where samples fell where none may
+  double p = 0;  // of the chi-square test; 0 where samples fell where none may
   double statistic = 0;
   int dof = 0;
-  double mass = 0;            // integral of the density
-  double lost = 0;            // fraction of samples that were invalid: 1 - mass is expected
-  std::int64_t stray = 0;     // samples in the worst cell of mass 0
+  double mass = 0;         // integral of the density
+  double lost = 0;         // fraction of samples that were invalid: 1 - mass is expected
+  std::int64_t stray = 0;  // samples in the worst cell of mass 0
   bool accepted() const { return p >= alpha(); }
   std::string text() const;
 };

@@ -20,8 +20,7 @@ Histogram tilted_samples(Grid grid, double tilt, std::uint64_t seed, int n) {
   Histogram histogram(grid);
   while (histogram.total() < n) {
     const double x = random.fine(), phi = 2 * kPi * random.fine();
-    if (random.fine() * tilted(tilt, 0.1) < tilted(tilt, phi))
-      histogram.add(x, phi);
+    if (random.fine() * tilted(tilt, 0.1) < tilted(tilt, phi)) histogram.add(x, phi);
   }
   return histogram;
 }

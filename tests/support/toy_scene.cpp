@@ -23,8 +23,12 @@ std::vector<Material> toy_materials() {
   red.reflectance = {0.8f, 0.2f, 0.1f};
   Material brushed = material(kConductor, 0.7f);
   brushed.alpha = 0.01f;
-  return {red, mirror(0.9f), dielectric(1.5f), gold, brushed, material(kBlack, 0),
-          glowing(diffuse(0.3f), 0), glowing(material(kBlack, 0), 1)};
+  std::vector<Material> all = {
+      red,     mirror(0.9f),        dielectric(1.5f),          gold,
+      brushed, material(kBlack, 0), glowing(diffuse(0.3f), 0), glowing(material(kBlack, 0), 1)};
+  for (std::size_t i = 1; i < all.size(); ++i)
+    all[i].ior = 1.5f;  // twins try every kind on every one
+  return all;
 }
 
 Quad random_quad(Random &random, float size) {
@@ -46,7 +50,7 @@ Instance random_instance(Random &random, float size) {
   const float sx = random.between(0.5f, 2), sy = random.between(0.5f, 2);
   const float sz = random.chance(0.5) ? -sx : sx;
   Instance i = {};
-  i.to_world = {f.s.x * sx, f.t.x * sy, f.n.x * sz, shift.x, f.s.y * sx, f.t.y * sy,
+  i.to_world = {f.s.x * sx, f.t.x * sy, f.n.x * sz, shift.x,    f.s.y * sx, f.t.y * sy,
                 f.n.y * sz, shift.y,    f.s.z * sx, f.t.z * sy, f.n.z * sz, shift.z};
   const Vec3 s = f.s * (1 / sx), t = f.t * (1 / sy), n = f.n * (1 / sz);
   i.to_object = {s.x, s.y, s.z, -dot(s, shift), t.x, t.y, t.z, -dot(t, shift),
@@ -57,7 +61,8 @@ Instance random_instance(Random &random, float size) {
 void add_primitives(ToyScene &scene, ShapeKind shape, Random &random, float size) {
   for (int i = 0; i < kPrimitives; ++i) {
     if (shape == kQuads) scene.quads.push_back(random_quad(random, size));
-    if (shape == kSpheres) scene.spheres.push_back({random.point(size), random.between(0.1f * size, size)});
+    if (shape == kSpheres)
+      scene.spheres.push_back({random.point(size), random.between(0.1f * size, size)});
     if (shape == kDisks) scene.disks.push_back(random_disk(random, size));
     if (shape != kMesh) continue;
     const auto first = static_cast<int32>(scene.positions.size() / 3);
@@ -118,6 +123,7 @@ int32 ToyScene::add_geometry(ShapeKind shape, int32 material, std::size_t first)
   Geometry g = {};
   g.shape = shape;
   g.material = material;
+  g.kind = materials[static_cast<std::size_t>(material)].kind;
   g.first = static_cast<int32>(first);
   g.first_light = -1;
   geometries.push_back(g);
@@ -205,7 +211,8 @@ AimedRay aimed_ray(const ToyScene &scene, Random &random, float size) {
   Vec3 target = point_on(scene, g, primitive, random);
   if (g.first_light < 0 && random.chance(0.3)) {
     ray.hit.instance = random.below(static_cast<int>(scene.instances.size()));
-    target = transform_point(scene.instances[static_cast<std::size_t>(ray.hit.instance)].to_world, target);
+    target = transform_point(scene.instances[static_cast<std::size_t>(ray.hit.instance)].to_world,
+                             target);
   }
   ray.origin = random.point(3 * size);
   ray.direction = normalize(target - ray.origin);

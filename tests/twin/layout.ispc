@@ -1,21 +1,14 @@
-// Sizes of the shared structs as ISPC sees them, for test_layout.cpp.
+// Sizes and offsets of the shared structs as ISPC sees them, for test_layout.cpp.
 #include "gang.isph"
+#include "layout.h"
 
-/// Writes up to 64 numbers and returns how many. The C++ list in tests/twin has the same order.
+#define OFFSET_OF(type, field) \
+  values[n++] = (uniform int32)(uniform int64)&(((uniform type * uniform) NULL)->field);
+#define SIZE_OF(type) values[n++] = (uniform int32)sizeof(uniform type);
+
+/// Writes at most LAYOUT_MAX numbers, in the order of LAYOUT_LIST, and returns how many.
 export uniform int32 KERNEL(layout)(uniform int32 values[]) {
   uniform int32 n = 0;
-  values[n++] = sizeof(uniform Material);
-  values[n++] = sizeof(uniform Geometry);
-  values[n++] = sizeof(uniform Triangle);
-  values[n++] = sizeof(uniform Quad);
-  values[n++] = sizeof(uniform Sphere);
-  values[n++] = sizeof(uniform Disk);
-  values[n++] = sizeof(uniform Instance);
-  values[n++] = sizeof(uniform Light);
-  values[n++] = sizeof(uniform SceneView);
-  values[n++] = sizeof(uniform Camera);
-  values[n++] = sizeof(uniform FrameView);
-  values[n++] = sizeof(uniform WaveView);
-  values[n++] = sizeof(uniform TileView);
+  LAYOUT_LIST(OFFSET_OF, SIZE_OF)
   return n;
 }

@@ -4,9 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "../film/film.h"
-
 namespace phalanx {
+
+/// Samples that were not finite numbers: how many, and where the first one was. First is the lowest
+/// sample number, then the lowest y, then the lowest x: the same for any order of tiles.
+struct InvalidSamples {
+  std::int64_t count = 0;
+  int x = -1, y = -1;        // pixel of the full picture; -1 while count is 0
+  std::int64_t sample = -1;
+
+  void add(int pixel_x, int pixel_y, std::int64_t sample_number);
+  void merge(const InvalidSamples &other);
+};
 
 /// One stage of a schedule, summed over threads. utilisation = lanes_active / lanes_total.
 struct StageStats {

@@ -1,0 +1,55 @@
+// Host and kernels read the same structs: every field of them at the same place, at every width.
+#include "layout.h"
+
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "../../kernels/path_view.h"
+#include "wavefront/isa.h"
+
+using namespace phalanx;
+
+extern "C" int32 layout_sse4(int32 *values), layout_avx2(int32 *values),
+    layout_avx512skx(int32 *values);
+
+namespace {
+
+struct Number {
+  std::string name;
+  std::size_t value;
+};
+#define OFFSET_OF(type, field) {#type "::" #field, offsetof(type, field)},
+#define SIZE_OF(type) {"sizeof " #type, sizeof(type)},
+const std::vector<Number> kHost = {LAYOUT_LIST(OFFSET_OF, SIZE_OF)};
+
+void check_layout(const std::string &isa, int32 (*layout)(int32 *)) {
+  if (!isa_supported(isa)) return;
+  std::vector<int32> values(LAYOUT_MAX);
+  REQUIRE(kHost.size() <= values.size());
+  REQUIRE(static_cast<std::size_t>(layout(values.data())) == kHost.size());
+  for (std::size_t i = 0; i < kHost.size(); ++i) {
+    CAPTURE(isa);
+    CAPTURE(kHost[i].name);
+    CHECK(static_cast<std::size_t>(values[i]) == kHost[i].value);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("layout: shared structs have the same sizes and offsets in C++ and in ISPC") {
+  check_layout("sse4", layout_sse4);
+  check_layout("avx2", layout_avx2);
+  check_layout("avx512skx", layout_avx512skx);
+}
+
+TEST_CASE("layout: no field was forgotten: fields fill the structs but for padding") {
+  // Four-byte structs have no padding: their sizes are the sums of their fields'.
+  CHECK(sizeof(Material) == 4 * (1 + 9 + 3 + 3 + 1));
+  CHECK(sizeof(Geometry) == 4 * 7);
+  CHECK(sizeof(Light) == 4 * (2 + 12 + 4 + 3));
+  CHECK(sizeof(Camera) == 4 * (12 + 3));
+  CHECK(sizeof(Instance) == 4 * (1 + 24));
+}
