@@ -71,3 +71,49 @@ PHALANX_QUERY phalanx_occluded(void *PHALANX_UNIFORM accel,
 }
 
 #endif
+
+#ifndef ISPC
+// A query that shows every hit of one ray to a filter, for src/scene/accel.cpp. The filter's context is
+// the given one; phalanx_collects() tells it from that of an ordinary query.
+#if PHALANX_EMBREE == 3
+
+using PhalanxQueryContext = RTCIntersectContext;
+#define PHALANX_FILTER_SCENE_FLAG RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION
+
+static inline bool phalanx_collects(const PhalanxQueryContext *context) {
+  return context->filter != nullptr;
+}
+static inline void phalanx_collect(void *accel, RTCRayHit *ray, PhalanxQueryContext *context,
+                                   RTCFilterFunctionN filter) {
+  rtcInitIntersectContext(context);
+  context->filter = filter;
+  rtcIntersect1(static_cast<RTCScene>(accel), context, ray);
+}
+
+#else
+
+using PhalanxQueryContext = RTCRayQueryContext;
+#define PHALANX_FILTER_SCENE_FLAG RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS
+
+// While a thread collects, this is its context.
+inline thread_local const RTCRayQueryContext *phalanx_collecting = nullptr;
+
+static inline bool phalanx_collects(const PhalanxQueryContext *context) {
+  return context != nullptr && context == phalanx_collecting;
+}
+static inline void phalanx_collect(void *accel, RTCRayHit *ray, PhalanxQueryContext *context,
+                                   RTCFilterFunctionN filter) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  rtcInitRayQueryContext(context);
+  arguments.context = context;
+  arguments.filter = filter;
+  arguments.flags = static_cast<RTCRayQueryFlags>(RTC_RAY_QUERY_FLAG_INCOHERENT |
+                                                  RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+  phalanx_collecting = context;
+  rtcIntersect1(static_cast<RTCScene>(accel), ray, &arguments);
+  phalanx_collecting = nullptr;
+}
+
+#endif
+#endif

@@ -13,8 +13,11 @@ struct Refraction {
 /// index on the near side. eta = 1 reflects exactly nothing.
 PHYS Refraction fresnel_dielectric(float cos_i, float eta) {
   Refraction r;
-  // 1 - sin^2 / eta^2 without the cancellation that it has near grazing and near eta = 1.
-  const float cos2_t = ((eta - 1.0f) * (eta + 1.0f) + cos_i * cos_i) / (eta * eta);
+  // 1 - sin^2 / eta^2 cancels at grazing angles where eta is near 1; the other form where it is not.
+  const float inv_eta2 = 1.0f / (eta * eta);
+  const float cos2_t = abs_of(eta - 1.0f) < 0.1f
+                           ? ((eta - 1.0f) * (eta + 1.0f) + cos_i * cos_i) * inv_eta2
+                           : 1.0f - (1.0f - cos_i) * (1.0f + cos_i) * inv_eta2;
   if (cos2_t <= 0.0f) {
     r.reflectance = 1.0f;
     r.cos_t = 0.0f;

@@ -13,6 +13,15 @@ struct Hit {
   int32 far_root;   // spheres: 1 if the ray met the far side
 };
 
+/// True for barycentric coordinates so near an edge that a neighbour can be hit at the same distance.
+/// Which of the two a query returns then depends on the order in which it visited them: packets, single
+/// rays and differently built trees disagree. Such hits (one in some thousand) are decided once more, by
+/// the lowest primitive number: resolve_tie() in src/scene/accel.cpp.
+PHYS bool may_tie(float u, float v) {
+  const float w = 1.0f - u - v;
+  return min_of(min_of(u, v), min_of(abs_of(w), min_of(1.0f - u, 1.0f - v))) < 1.0e-4f;
+}
+
 /// A point on a surface, in world space, seen from the direction that a ray came from.
 struct Surface {
   Vec3 position;

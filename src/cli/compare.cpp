@@ -22,8 +22,6 @@
 namespace phalanx {
 namespace {
 
-/// A schedule that must have the bits of depth-first has not.
-constexpr int kExitNotEqual = 6;
 
 constexpr int kDefaultSpp = 16;  // scenes ask for pictures; a timing needs less
 
@@ -144,7 +142,7 @@ int run_compare(CompareCommand command) {
   std::fflush(stdout);
   write_outputs({{}, command.json}, {}, 0, compare_json(comparisons));
   if (print_tables && !command.json.empty()) fmt::print(stderr, "wrote {}\n", command.json);
-  return equal ? kExitDone : kExitNotEqual;
+  return equal ? kExitDone : kExitBitsDiffer;
 }
 
 // ---- its options -------------------------------------------------------------------------------

@@ -33,8 +33,9 @@ std::int64_t num_visible_triangles(const Scene &scene) {
 }
 
 std::string materials_by_kind(const Scene &scene) {
-  const char *const names[kNumMaterialKinds] = {"diffuse", "mirror", "dielectric", "conductor",
-                                                "black"};
+#define PHALANX_KIND(constant, name, density) #name,
+  const char *const names[kNumMaterialKinds] = {PHALANX_MATERIAL_KINDS(PHALANX_KIND)};
+#undef PHALANX_KIND
   std::string text;
   for (int kind = 0; kind < kNumMaterialKinds; kind++) {
     const auto count = std::count_if(scene.materials.begin(), scene.materials.end(),

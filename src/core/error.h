@@ -16,6 +16,7 @@ enum ExitCode {
   kExitInvalidSamples = 3,  // under --strict
   kExitOutOfMemory = 4,
   kExitCannotWrite = 5,
+  kExitBitsDiffer = 6,      // compare: a schedule that must equal depth-first does not
 };
 
 /// One problem in an input file. Printed as `file:line:column: /json/path: message`, leaving out

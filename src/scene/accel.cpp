@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <limits>
+#include <tuple>
 
 #include "../../kernels/embree_version.h"
 #include "../../kernels/physics/shape.h"
@@ -38,6 +40,37 @@ void on_error(void *user, RTCError code, const char *text) {
 bool on_memory(void *user, ssize_t bytes, bool) {
   *static_cast<std::atomic<std::int64_t> *>(user) += bytes;
   return true;
+}
+
+// ---- ties -------------------------------------------------------------------------------------
+
+struct Ids {
+  unsigned geometry, primitive, instance;
+  bool operator<(const Ids &o) const {
+    return std::tie(instance, geometry, primitive) < std::tie(o.instance, o.geometry, o.primitive);
+  }
+};
+
+/// A query that keeps the nearest hit and, of several at its distance, the lowest ids.
+struct TieContext {
+  PhalanxQueryContext embree;  // first: Embree hands out a pointer to it
+  float t;
+  Ids ids;
+};
+
+void collect(PhalanxQueryContext *context, float t, Ids ids) {
+  auto *tie = reinterpret_cast<TieContext *>(context);
+  if (t > tie->t || (t == tie->t && !(ids < tie->ids))) return;
+  tie->t = t;
+  tie->ids = ids;
+}
+
+void collect_all(const RTCFilterFunctionNArguments *args) {
+  if (args->valid[0] != -1) return;
+  collect(args->context, RTCRayN_tfar(args->ray, 1, 0),
+          {RTCHitN_geomID(args->hit, 1, 0), RTCHitN_primID(args->hit, 1, 0),
+           RTCHitN_instID(args->hit, 1, 0, 0)});
+  args->valid[0] = 0;  // go on looking
 }
 
 // ---- spheres and disks ------------------------------------------------------------------------
@@ -98,9 +131,13 @@ void analytic_intersect(const RTCIntersectFunctionNArguments *args) {
                                              RTCRayN_tnear(ray, args->N, i),
                                              RTCRayN_tfar(ray, args->N, i));
     if (found.t < 0) continue;
+    if (phalanx_collects(args->context)) {
+      collect(args->context, found.t, {args->geomID, args->primID, args->context->instID[0]});
+      continue;
+    }
     RTCRayN_tfar(ray, args->N, i) = found.t;
-    RTCHitN_u(hit, args->N, i) = static_cast<float>(found.far_root);
-    RTCHitN_v(hit, args->N, i) = 0;
+    RTCHitN_u(hit, args->N, i) = found.far_root != 0 ? 0.5f : 0.25f;  // read as far_root
+    RTCHitN_v(hit, args->N, i) = 0.25f;                               // and away from all edges
     RTCHitN_geomID(hit, args->N, i) = args->geomID;
     RTCHitN_primID(hit, args->N, i) = args->primID;
     RTCHitN_instID(hit, args->N, i, 0) = args->context->instID[0];
@@ -143,7 +180,7 @@ struct Accel::State {
   RTCScene new_scene() {
     RTCScene s = rtcNewScene(device);
     scenes.push_back(s);
-    rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(s, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | PHALANX_FILTER_SCENE_FLAG));
     rtcSetSceneBuildQuality(s, RTC_BUILD_QUALITY_MEDIUM);
     return s;
   }
@@ -271,6 +308,23 @@ void set_ray(RTCRay &r, Vec3 origin, Vec3 direction, float t_far) {
 }
 }  // namespace
 
+extern "C" void phalanx_resolve_tie(void *accel, const float ray[6], float t, int32 ids[3]) {
+  RTCRayHit r;
+  // A little further than the hit, so that all that share its distance are met.
+  const float t_far = t * 1.000001f;
+  set_ray(r.ray, {ray[0], ray[1], ray[2]}, {ray[3], ray[4], ray[5]}, t_far);
+  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  TieContext tie;
+  tie.t = t_far;
+  tie.ids = {RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID, RTC_INVALID_GEOMETRY_ID};
+  phalanx_collect(accel, &r, &tie.embree, collect_all);
+  if (tie.ids.geometry == RTC_INVALID_GEOMETRY_ID) return;
+  ids[0] = static_cast<int32>(tie.ids.geometry);
+  ids[1] = static_cast<int32>(tie.ids.primitive);
+  ids[2] = static_cast<int32>(tie.ids.instance);
+}
+
 Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction) {
   RTCRayHit r;
   set_ray(r.ray, origin, direction, PHALANX_FAR);
@@ -281,9 +335,18 @@ Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction) {
   hit.geometry = static_cast<int32>(r.hit.geomID);
   hit.primitive = static_cast<int32>(r.hit.primID);
   hit.instance = -1;
-  hit.far_root = scene.num_spheres > 0 && r.hit.u >= 1 ? 1 : 0;
-  if (hit.geometry >= 0 && r.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
-    hit.instance = static_cast<int32>(r.hit.instID[0]) - scene.num_top_geometries;
+  hit.far_root = scene.num_spheres > 0 && r.hit.u >= 0.5f ? 1 : 0;
+  auto instance = static_cast<int32>(r.hit.instID[0]);
+  if (hit.geometry >= 0 && may_tie(r.hit.u, r.hit.v)) {
+    const float ray[] = {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z};
+    int32 ids[] = {hit.geometry, hit.primitive, instance};
+    phalanx_resolve_tie(scene.accel, ray, r.ray.tfar, ids);
+    hit.geometry = ids[0];
+    hit.primitive = ids[1];
+    instance = ids[2];
+  }
+  if (hit.geometry >= 0 && instance >= 0) {
+    hit.instance = instance - scene.num_top_geometries;
     hit.geometry += scene.instances[hit.instance].first_geometry;
   }
   return hit;

@@ -127,11 +127,13 @@ TEST_CASE("wavefront: another seed gives another picture, the same seed the same
   CHECK(pixels_that_differ(a.film, render_scene(scene, o).film) > 900);
 }
 
-TEST_CASE("wavefront: every stage fills its gangs") {
+TEST_CASE("wavefront: stages that work on lists fill their gangs") {
   const BuiltScene scene = build_file("scenes/cornell-glass.json", "sse4");
   const RenderResult r = render_scene(scene, small(Mode::kWavefront, 64, 16));
   std::int64_t active = 0, total = 0;
   for (const StageStats &s : r.stats.stages) {
+    // These two look at every slot, also while the last paths of a tile end.
+    if (s.name == "compact" || s.name == "bucket") continue;
     active += s.lanes_active;
     total += s.lanes_total;
   }
