@@ -8,11 +8,11 @@ PHALANX_BEGIN
 /// hit.geometry >= 0.
 PHYS Vertex path_vertex_any(const UNI SceneView &scene, const UNI FrameView &frame, PathState p,
                             Hit hit) {
-  const int32 kind = scene.geometries[hit.geometry].kind;
-  Vertex v;
-  v.next = p;
+  const Surface s = make_surface(scene, hit, p.origin, p.direction);
+  const Material m = fetch(scene.materials, s.material);
+  Vertex v = arrive(scene, p, m, s);
 #define PHALANX_KIND(constant, name, density) \
-  if (kind == constant) v = path_vertex<constant>(scene, frame, p, hit);
+  if (m.kind == constant) v = scatter<constant>(scene, frame, p, m, s, v);
   PHALANX_MATERIAL_KINDS(PHALANX_KIND)
 #undef PHALANX_KIND
   return v;

@@ -110,12 +110,9 @@ PHYS ShadowRay direct_light(const UNI SceneView &scene, const UNI FrameView &fra
 /// Probability to go on with throughput t: its largest component, between 0.05 and 1.
 PHYS float survival_probability(Vec3 t) { return clamp_to(max_component(t), 0.05f, 1.0f); }
 
-/// One vertex of a path at a surface whose material is of this Kind.
-template <int Kind>
-PHYS Vertex path_vertex(const UNI SceneView &scene, const UNI FrameView &frame, PathState p,
-                        Hit hit) {
-  const Surface s = make_surface(scene, hit, p.origin, p.direction);
-  const Material m = fetch(scene.materials, s.material);
+/// What happens at a surface whatever its material: emission. The path ends here until scatter()
+/// says how it goes on.
+PHYS Vertex arrive(const UNI SceneView &scene, PathState p, Material m, Surface s) {
   Vertex v;
   v.emitted = vec3(0.0f, 0.0f, 0.0f);
   v.shadow.contribution = vec3(0.0f, 0.0f, 0.0f);
@@ -124,6 +121,14 @@ PHYS Vertex path_vertex(const UNI SceneView &scene, const UNI FrameView &frame, 
 
   if (s.light >= 0)
     v.emitted = p.throughput * emitted_radiance(m, s) * emission_weight(scene, p, s);
+  return v;
+}
+
+/// Samples a light and the next direction at a surface whose material is of this Kind.
+template <int Kind>
+PHYS Vertex scatter(const UNI SceneView &scene, const UNI FrameView &frame, PathState p,
+                    Material m, Surface s, Vertex arrived) {
+  Vertex v = arrived;
   if (p.depth >= frame.max_depth || Kind == kBlack) return v;
 
   const Vec3 wo = to_local(s.shading, neg(p.direction));
@@ -151,6 +156,15 @@ PHYS Vertex path_vertex(const UNI SceneView &scene, const UNI FrameView &frame, 
   v.next.pdf = b.pdf;
   v.next.depth = p.depth + 1;
   return v;
+}
+
+/// One vertex of a path at a surface whose material is of this Kind.
+template <int Kind>
+PHYS Vertex path_vertex(const UNI SceneView &scene, const UNI FrameView &frame, PathState p,
+                        Hit hit) {
+  const Surface s = make_surface(scene, hit, p.origin, p.direction);
+  const Material m = fetch(scene.materials, s.material);
+  return scatter<Kind>(scene, frame, p, m, s, arrive(scene, p, m, s));
 }
 
 PHALANX_END

@@ -22,7 +22,6 @@
 namespace phalanx {
 namespace {
 
-
 constexpr int kDefaultSpp = 16;  // scenes ask for pictures; a timing needs less
 
 struct CompareCommand {
