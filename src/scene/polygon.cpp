@@ -63,7 +63,7 @@ double squared_distance(const std::vector<float> &positions, std::int32_t a, std
   double sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double d = static_cast<double>(positions[static_cast<size_t>(a) * 3 + axis]) -
-                     positions[static_cast<size_t>(b) * 3 + axis];
+                     static_cast<double>(positions[static_cast<size_t>(b) * 3 + axis]);
     sum += d * d;
   }
   return sum;

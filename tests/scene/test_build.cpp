@@ -219,7 +219,7 @@ TEST_CASE("the outside stays outside under every transform") {
                  n);
       CHECK(length(u) == doctest::Approx(similarity_scale(transform)));
       CHECK(length(v) == doctest::Approx(similarity_scale(transform)));
-      CHECK(std::fabs(dot(u, v)) < 1e-6 * length_squared(u));
+      CHECK(std::fabs(dot(u, v)) < 1e-6f * length_squared(u));
     }
   }
 }
@@ -474,7 +474,7 @@ TEST_CASE("L8: one strong light among 100,000 weak ones") {
   REQUIRE(scene.lights.size() == 100001);
   CHECK(scene.lights[0].select_pdf == doctest::Approx(1 / 1.001).epsilon(1e-6));
   CHECK(scene.lights[777].select_pdf == doctest::Approx(1e-8 / 1.001).epsilon(1e-5));
-  CHECK(1.0 / scene.lights[0].select_pdf == doctest::Approx(1.001).epsilon(1e-6));
+  CHECK(1.0 / static_cast<double>(scene.lights[0].select_pdf) == doctest::Approx(1.001).epsilon(1e-6));
 }
 
 // ---- instances --------------------------------------------------------------------------------

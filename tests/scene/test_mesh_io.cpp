@@ -505,8 +505,8 @@ TEST_CASE("polygons are split into triangles of the same sense that cover them")
       double expected = 0;
       for (std::size_t i = 0; i < n; ++i) {
         const std::size_t j = (i + 1) % n;
-        expected += 0.5 * (positions[i * 3] * positions[j * 3 + 1] -
-                           positions[j * 3] * positions[i * 3 + 1]);
+        expected += 0.5 * static_cast<double>(positions[i * 3] * positions[j * 3 + 1] -
+                                              positions[j * 3] * positions[i * 3 + 1]);
       }
       Ints triangles;
       CHECK(triangulate_polygon(positions, corners, triangles));
