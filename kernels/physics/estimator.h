@@ -81,7 +81,7 @@ PHYS float emission_weight(const UNI SceneView &scene, PathState p, Surface s) {
   return power_heuristic(p.pdf, light_pdf(fetch(scene.lights, s.light), p.origin, s.position, s.normal));
 }
 
-/// Light sampled at a surface, with its weight. `through` is the throughput up to the surface.
+/// Light sampled at a surface, with its weight and the path's throughput.
 template <int Kind>
 PHYS ShadowRay direct_light(const UNI SceneView &scene, const UNI FrameView &frame, PathState p,
                             Material m, Surface s, Vec3 wo) {
