@@ -2,35 +2,30 @@
 // one material kind. A counting sort; within a kind slots ascend.
 #include "gang.isph"
 
-#define NUM_BUCKETS (kNumMaterialKinds + 1)
+#define MAX_BUCKETS (kNumMaterialKinds + 1)
 
-/// counts[kind] receives the number of paths that hit that kind, counts[kNumMaterialKinds] those
-/// that left the scene. wave.order lists them, kind after kind. Slots 0 .. num_slots - 1 are read.
+/// kinds: those that the scene has, and kEscaped. counts[b] receives the number of paths that hit kinds[b];
+/// wave.order lists them, kind after kind. Slots 0 .. num_slots - 1 are read.
 export void KERNEL(bucket)(const uniform WaveView &wave, uniform int32 num_slots,
+                           const uniform int32 kinds[], uniform int32 num_kinds,
                            uniform int32 counts[]) {
-  int32 found[NUM_BUCKETS];
-  for (uniform int32 k = 0; k < NUM_BUCKETS; ++k) found[k] = 0;
+  int32 found[MAX_BUCKETS];
+  for (uniform int32 b = 0; b < num_kinds; ++b) found[b] = 0;
   foreach (slot = 0 ... num_slots) {
     const int32 kind = wave.depth[slot] >= 0 ? wave.hit_kind[slot] : -1;
-    for (uniform int32 k = 0; k < NUM_BUCKETS; ++k)
-      if (kind == k) found[k] += 1;
+    for (uniform int32 b = 0; b < num_kinds; ++b)
+      if (kind == kinds[b]) found[b] += 1;
   }
-  uniform int32 next[NUM_BUCKETS];
+  uniform int32 next[MAX_BUCKETS];
   uniform int32 sum = 0;
-  for (uniform int32 k = 0; k < NUM_BUCKETS; ++k) {
-    counts[k] = reduce_add(found[k]);
-    next[k] = sum;
-    sum += counts[k];
+  for (uniform int32 b = 0; b < num_kinds; ++b) {
+    counts[b] = reduce_add(found[b]);
+    next[b] = sum;
+    sum += counts[b];
   }
   foreach (slot = 0 ... num_slots) {
     const int32 kind = wave.depth[slot] >= 0 ? wave.hit_kind[slot] : -1;
-    uniform int32 common;
-    if (reduce_equal(kind, &common)) {
-      // The usual case: the whole gang goes to one bucket.
-      if (common >= 0) next[common] += packed_store_active(&wave.order[next[common]], slot);
-    } else {
-      for (uniform int32 k = 0; k < NUM_BUCKETS; ++k)
-        if (kind == k) next[k] += packed_store_active(&wave.order[next[k]], slot);
-    }
+    for (uniform int32 b = 0; b < num_kinds; ++b)
+      if (kind == kinds[b]) next[b] += packed_store_active(&wave.order[next[b]], slot);
   }
 }

@@ -8,10 +8,8 @@ export void KERNEL(generate)(const uniform FrameView &frame, const uniform TileV
   foreach (i = 0 ... count) {
     const Gang g = make_gang(slots, i);
     const int32 block_index = first_index + i;
-    const int32 xy = tile.pixels[block_index >> tile.log2_samples];
-    const int32 sample =
-        tile.first_sample + (block_index & ((1 << tile.log2_samples) - 1));
-    const PathState p = start_path(frame, xy & 0xffff, (xy >> 16) & 0xffff, sample);
+    const TileSample at = tile_sample(tile, block_index);
+    const PathState p = start_path(frame, at.x, at.y, at.sample);
     put_ray(wave, g, p);
     put(wave.depth, g, p.depth);
     put(wave.scramble, g, p.scramble);

@@ -13,7 +13,7 @@ export void KERNEL(intersect)(const uniform SceneView &scene, const uniform Wave
                       coherent != 0);
     put(wave.hit_geometry, g, hit.geometry);
     put(wave.hit_primitive, g, hit.primitive);
-    int32 kind = kNumMaterialKinds;
+    int32 kind = kEscaped;
     if (hit.geometry >= 0) {
       const Geometry geometry = fetch(scene.geometries, hit.geometry);
       kind = geometry.kind;

@@ -4,40 +4,41 @@
 #include "physics/any_vertex.h"
 #include "trace.isph"
 
-/// Renders all samples of a tile. counts: [0] vertices visited by lanes, [1] lanes that could have
-/// (gang width times steps), [2] bounce rays, [3] shadow rays.
-export void KERNEL(megakernel)(const uniform SceneView &scene, const uniform FrameView &frame,
-                               const uniform TileView &tile, uniform int64 counts[]) {
+template <int D>
+static inline void megakernel(const uniform SceneView &scene, const uniform FrameView &frame,
+                              const uniform TileView &tile, uniform int64 *uniform counts) {
   for (uniform int32 base = 0; base < tile.num_samples; base += programCount) {
     const int32 block_index = base + programIndex;
     if (block_index < tile.num_samples) {
-      const int32 xy = tile.pixels[block_index >> tile.log2_samples];
-      const int32 sample = tile.first_sample + (block_index & ((1 << tile.log2_samples) - 1));
-      PathState p = start_path(frame, xy & 0xffff, (xy >> 16) & 0xffff, sample);
+      const TileSample at = tile_sample(tile, block_index);
+      PathState p = start_path(frame, at.x, at.y, at.sample);
       Vec3 radiance = vec3(0.0f, 0.0f, 0.0f);
       uniform bool camera = true;
       while (p.depth >= 0) {
         counts[0] += popcnt(lanemask());
         counts[1] += programCount;
         if (!camera) counts[2] += popcnt(lanemask());
-        const Hit hit = trace_closest(scene, p.origin, p.direction, camera);
+        const Hit hit =
+            resolve_hit<D>(scene, trace_closest(scene, p.origin, p.direction, camera), p.origin,
+                           p.direction, p.scramble, p.sample, p.depth);
         if (camera && tile.aov != NULL) {
-          const FirstHit f = first_hit(scene, hit, p.origin, p.direction);
+          const FirstHit f = first_hit<D>(scene, hit, p.origin, p.direction);
           put_first_hit(tile, block_index, f);
         }
         if (hit.geometry < 0) {
-          if (scene.has_environment != 0) radiance = radiance + escaped_radiance(scene, p);
+          if (sees_environment<D>(scene, frame)) {
+            const Vec3 light = escaped_radiance<D>(scene, p);
+            radiance = radiance + light;
+          }
           p.depth = -1;
         } else {
-          const Vertex v = path_vertex_any(scene, frame, p, hit);
+          const Vertex v = path_vertex_any<D>(scene, frame, p, hit);
           radiance = radiance + v.emitted;
-          if (scene.num_lights > 0) {
-            if (!is_black(v.shadow.contribution)) {
-              counts[3] += popcnt(lanemask());
-              if (!trace_occluded(scene, v.shadow.origin, v.shadow.direction, v.shadow.distance,
-                                  camera))
-                radiance = radiance + v.shadow.contribution;
-            }
+          if (!is_black(v.shadow.contribution)) {
+            counts[3] += popcnt(lanemask());
+            if (!trace_occluded(scene, v.shadow.origin, v.shadow.direction, v.shadow.distance,
+                                camera))
+              radiance = radiance + v.shadow.contribution;
           }
           p = v.next;
         }
@@ -48,4 +49,16 @@ export void KERNEL(megakernel)(const uniform SceneView &scene, const uniform Fra
       tile.radiance[3 * block_index + 2] = radiance.z;
     }
   }
+}
+
+// Each renders all samples of a tile. counts: [0] vertices visited by lanes, [1] lanes that could have
+// (gang width times steps), [2] bounce rays, [3] shadow rays.
+export void KERNEL(megakernel)(const uniform SceneView &scene, const uniform FrameView &frame,
+                               const uniform TileView &tile, uniform int64 counts[]) {
+  megakernel<kPlain>(scene, frame, tile, counts);
+}
+
+export void KERNEL(megakernel_rich)(const uniform SceneView &scene, const uniform FrameView &frame,
+                                    const uniform TileView &tile, uniform int64 counts[]) {
+  megakernel<kRich>(scene, frame, tile, counts);
 }

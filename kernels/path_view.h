@@ -20,9 +20,10 @@ struct WaveView {
   UNI int32 *UNI block_index;      // the path's sample in TileView::radiance
   // Hits; written by intersect.
   UNI int32 *UNI hit_geometry, *UNI hit_primitive;
-  UNI int32 *UNI hit_kind;         // MaterialKind, or kNumMaterialKinds where the ray left the scene
+  UNI int32 *UNI hit_kind;         // MaterialKind, or kEscaped
   UNI int32 *UNI hit_instance;     // only with instances
   UNI int32 *UNI hit_far_root;     // only with spheres
+  UNI int32 *UNI hit_material;     // only with blends: Hit::material; written by resolve
   // Shadow rays, in the slot of their path; only with lights. Written by shade.
   UNI float *UNI shadow_origin_x, *UNI shadow_origin_y, *UNI shadow_origin_z;
   UNI float *UNI shadow_direction_x, *UNI shadow_direction_y, *UNI shadow_direction_z;
@@ -49,5 +50,19 @@ struct TileView {
 };
 
 #define PHALANX_AOV_FLOATS 7
+
+/// x and y of a sample's pixel, and its number there.
+struct TileSample {
+  int32 x, y, sample;
+};
+
+PHYS TileSample tile_sample(const UNI TileView &tile, int32 block_index) {
+  const int32 xy = tile.pixels[block_index >> tile.log2_samples];
+  TileSample at;
+  at.x = xy & 0xffff;
+  at.y = (xy >> 16) & 0xffff;
+  at.sample = tile.first_sample + (block_index & ((1 << tile.log2_samples) - 1));
+  return at;
+}
 
 PHALANX_END

@@ -20,7 +20,7 @@ PHYS float filter_offset(const UNI FrameView &frame, float u) {
 
 /// Ray of sample `index` of pixel (x, y); y grows downwards. `scramble`: pixel_scramble().
 PHYS Ray camera_ray(const UNI FrameView &frame, int32 x, int32 y, uint32 scramble, int32 index) {
-  const Vec2 u = sample_pair(frame.sampler, scramble, index, PHALANX_PAIR_PIXEL);
+  const Vec2 u = sample_pair(frame, scramble, index, PHALANX_PAIR_PIXEL);
   const float height = to_float(frame.height);
   const float px = to_float(x) + 0.5f + filter_offset(frame, u.x);
   const float py = to_float(y) + 0.5f + filter_offset(frame, u.y);
@@ -34,7 +34,7 @@ PHYS Ray camera_ray(const UNI FrameView &frame, int32 x, int32 y, uint32 scrambl
   r.direction = normalize(aim);
   if (frame.camera.lens_radius > 0.0f) {
     const Vec2 lens =
-        square_to_disk(sample_pair(frame.sampler, scramble, index, PHALANX_PAIR_LENS));
+        square_to_disk(sample_pair(frame, scramble, index, PHALANX_PAIR_LENS));
     const Vec3 shift = (frame.camera.right * lens.x + frame.camera.up * lens.y) *
                        frame.camera.lens_radius;
     r.origin = r.origin + shift;

@@ -8,8 +8,10 @@
 #include "bsdf.h"
 #include "camera.h"
 #include "light.h"
+#include "light_rich.h"
+#include "mis.h"
 #include "rng.h"
-#include "surface.h"
+#include "surface_material.h"
 
 PHALANX_BEGIN
 
@@ -36,15 +38,6 @@ struct Vertex {
   PathState next;           // next.depth < 0 where the path ends here
 };
 
-/// Power heuristic with exponent 2: a^2 / (a^2 + b^2), a > 0, b >= 0, without overflow (Veach 1997,
-/// section 9.2.4; STABILITY L12).
-PHYS float power_heuristic(float a, float b) {
-  const bool swap = b > a;
-  const float r = swap ? a / b : b / a;
-  const float w = 1.0f / (1.0f + r * r);
-  return swap ? r * r * w : w;
-}
-
 PHYS PathState start_path(const UNI FrameView &frame, int32 x, int32 y, int32 sample) {
   const uint32 scramble = pixel_scramble(x, y, frame.seed);
   const Ray ray = camera_ray(frame, x, y, scramble, sample);
@@ -60,49 +53,98 @@ PHYS PathState start_path(const UNI FrameView &frame, int32 x, int32 y, int32 sa
 }
 
 PHYS Vec2 vertex_pair(const UNI FrameView &frame, PathState p, int32 pair) {
-  return sample_pair(frame.sampler, (uint32)p.scramble, p.sample,
+  return sample_pair(frame, (uint32)p.scramble, p.sample,
                      PHALANX_PAIR_FIRST_VERTEX + p.depth * PHALANX_PAIRS_PER_VERTEX + pair);
 }
 
+/// Do rays that leave the scene bring anything?
+template <int D>
+PHYS UNI bool sees_environment(const UNI SceneView &scene, const UNI FrameView &frame) {
+  if (D == kRich)
+    return frame.integrator == kPathIntegrator &&
+           (scene.has_environment != 0 || scene.num_infinite_lights > 0);
+  return scene.has_environment != 0;
+}
+
 /// Radiance of the environment along a ray that left the scene.
+template <int D>
 PHYS Vec3 escaped_radiance(const UNI SceneView &scene, PathState p) {
+  if (D == kRich) return p.throughput * infinite_radiance(scene, p.origin, p.direction, p.pdf);
   return p.throughput * scene.environment;
 }
 
-/// Radiance that the surface emits towards the viewer, before throughput and weight.
-PHYS Vec3 emitted_radiance(Material m, Surface s) {
+/// Radiance that a surface of material m emits towards the viewer, before throughput and weight.
+template <int D>
+PHYS Vec3 emitted_radiance(const UNI SceneView &scene, Material m, Surface s) {
   if (s.front == 0 && m.two_sided == 0) return vec3(0.0f, 0.0f, 0.0f);
+  if (D == kRich) {
+    if (m.emission_texture >= 0)
+      return m.emission * texture_value(scene, m.emission_texture, s.at);
+  }
   return m.emission;
 }
 
 /// Weight of light met by a scattered ray, against having sampled it from the light s.light.
+template <int D>
 PHYS float emission_weight(const UNI SceneView &scene, PathState p, Surface s) {
   if (p.pdf == 0.0f) return 1.0f;
-  return power_heuristic(p.pdf, light_pdf(fetch(scene.lights, s.light), p.origin, s.position, s.normal));
+  const Light light = fetch(scene.lights, s.light);
+  if (D == kRich)
+    return power_heuristic(p.pdf, light_pdf_rich(scene, light, p.origin, s.position, s.normal));
+  return power_heuristic(p.pdf, light_pdf(light, p.origin, s.position, s.normal));
+}
+
+/// Light sampled for the point `start`.
+template <int D>
+PHYS LightSample light_sample(const UNI SceneView &scene, const UNI FrameView &frame, PathState p,
+                              Vec3 start) {
+  const Vec2 u_choice = vertex_pair(frame, p, PHALANX_PAIR_LIGHT_CHOICE);
+  const Vec2 u = vertex_pair(frame, p, PHALANX_PAIR_LIGHT);
+  if (D == kRich) return sample_light_rich(scene, start, u_choice, u);
+  return sample_light(scene, start, u_choice, u);
+}
+
+/// True where light from this sample meets the side of the surface that `normal` points to. The point
+/// itself must lie there, too: a convex lamp does not light itself, though points moved off it can rise
+/// above its own horizon.
+PHYS bool lights_side(LightSample light, Vec3 start, Vec3 normal) {
+  return dot(light.direction, normal) > 0.0f && dot(light.point - start, normal) > 0.0f;
 }
 
 /// Light sampled at a surface, with its weight and the path's throughput.
-template <int Kind>
+template <int Kind, int D>
 PHYS ShadowRay direct_light(const UNI SceneView &scene, const UNI FrameView &frame, PathState p,
                             Material m, Surface s, Vec3 wo) {
   ShadowRay ray;
   ray.contribution = vec3(0.0f, 0.0f, 0.0f);
   const Vec3 start = s.position + s.normal * s.offset;
-  const LightSample light =
-      sample_light(scene, start, vertex_pair(frame, p, PHALANX_PAIR_LIGHT_CHOICE),
-                   vertex_pair(frame, p, PHALANX_PAIR_LIGHT));
+  const LightSample light = light_sample<D>(scene, frame, p, start);
   ray.origin = start;
   ray.direction = light.direction;
   ray.distance = light.distance;
-  // An opaque surface receives light only on the viewer's side, of the geometry and of the shading. The
-  // point itself must lie there, too: a convex lamp does not light itself, though points moved off it
-  // can rise above its own horizon.
-  if (!(light.pdf > 0.0f) || !(dot(light.direction, s.normal) > 0.0f) ||
-      !(dot(light.point - start, s.normal) > 0.0f))
-    return ray;
-  const BsdfValue f = eval_bsdf<Kind>(m, wo, to_local(s.shading, light.direction));
+  if (!(light.pdf > 0.0f)) return ray;
+  // An opaque surface receives light only on the viewer's side, of the geometry and of the shading.
+  const bool above = lights_side(light, start, s.normal);
+  bool below = false;
+  if (transmits<Kind>()) {
+    const Vec3 back = s.position - s.normal * s.offset;
+    below = lights_side(light, back, neg(s.normal));
+    if (below) {
+      ray.origin = back;
+      if (light.distance < PHALANX_FAR) {
+        const Vec3 to_light = start + light.direction * light.distance - back;
+        ray.distance = length(to_light);
+        ray.direction = to_light * (1.0f / ray.distance);
+      }
+    }
+  }
+  if (!above && !below) return ray;
+  const Vec3 wi = to_local(s.shading, ray.direction);
+  if (above != (wi.z > 0.0f)) return ray;
+  const BsdfValue f = eval_bsdf<Kind>(scene, m, s.front, wo, wi);
   if (!(f.pdf > 0.0f)) return ray;
-  const float weight = power_heuristic(light.pdf, f.pdf);
+  float weight = power_heuristic(light.pdf, f.pdf);
+  if (D == kRich) weight = light.is_delta != 0 ? 1.0f : weight;
   ray.contribution = p.throughput * f.f_cos * light.radiance * (weight / light.pdf);
   return ray;
 }
@@ -110,42 +152,59 @@ PHYS ShadowRay direct_light(const UNI SceneView &scene, const UNI FrameView &fra
 /// Probability to go on with throughput t: its largest component, between 0.05 and 1.
 PHYS float survival_probability(Vec3 t) { return clamp_to(max_component(t), 0.05f, 1.0f); }
 
+/// True where roulette would mistake the 1/eta^2 that radiance carries inside a dielectric for absorption.
+template <int Kind>
+PHYS bool scales_radiance(Material m) {
+  if (Kind == kDielectric || Kind == kRoughDielectric) return true;
+  if (Kind == kPrincipled) return m.transmission > 0.0f;
+  return false;
+}
+
 /// What happens at a surface whatever its material: emission. The path ends here until scatter()
 /// says how it goes on.
-PHYS Vertex arrive(const UNI SceneView &scene, PathState p, Material m, Surface s) {
+template <int D>
+PHYS Vertex arrive(const UNI SceneView &scene, PathState p, Surface s) {
   Vertex v;
   v.emitted = vec3(0.0f, 0.0f, 0.0f);
   v.shadow.contribution = vec3(0.0f, 0.0f, 0.0f);
   v.next = p;
   v.next.depth = -1;
-
-  if (s.light >= 0)
-    v.emitted = p.throughput * emitted_radiance(m, s) * emission_weight(scene, p, s);
+  if (s.light >= 0) {
+    const Material m = fetch(scene.materials, s.material);
+    const Vec3 radiance = emitted_radiance<D>(scene, m, s);
+    const float weight = emission_weight<D>(scene, p, s);
+    v.emitted = p.throughput * radiance * weight;
+  }
   return v;
 }
 
-/// Samples a light and the next direction at a surface whose material is of this Kind.
-template <int Kind>
+/// Samples a light and the next direction at a surface whose material m is of this Kind.
+template <int Kind, int D>
 PHYS Vertex scatter(const UNI SceneView &scene, const UNI FrameView &frame, PathState p,
-                    Material m, Surface s, Vertex arrived) {
+                    Material constants, Surface surface, Vertex arrived) {
   Vertex v = arrived;
+  Material m = constants;
+  Surface s = surface;
   if (p.depth >= frame.max_depth || Kind == kBlack) return v;
+  if (D == kRich) {
+    if (m.one_sided != 0 && s.front == 0) return v;
+    m = textured_material(scene, m, s.at);
+    s.shading = mapped_frame(scene, m, s, p.direction);
+  }
 
   const Vec3 wo = to_local(s.shading, neg(p.direction));
   if (scene.num_lights > 0 && has_density<Kind>())
-    v.shadow = direct_light<Kind>(scene, frame, p, m, s, wo);
+    v.shadow = direct_light<Kind, D>(scene, frame, p, m, s, wo);
 
   const Vec2 u = vertex_pair(frame, p, PHALANX_PAIR_BSDF);
   const Vec2 u_lobe = vertex_pair(frame, p, PHALANX_PAIR_LOBE);
-  const BsdfSample b = sample_bsdf<Kind>(m, s.front, wo, u, u_lobe.x);
+  const BsdfSample b = sample_bsdf<Kind>(scene, m, s.front, wo, u, u_lobe.x);
   if (is_black(b.weight)) return v;
   const Vec3 wi = to_world(s.shading, b.wi);
   // Reflection must leave on the viewer's side of the geometry, too, transmission on the other.
   if ((b.wi.z > 0.0f) != (dot(wi, s.normal) > 0.0f)) return v;
   Vec3 throughput = p.throughput * b.weight;
-  // No roulette at dielectric interfaces: they absorb nothing, and the 1/eta^2 that radiance carries
-  // inside would be mistaken for absorption.
-  if (Kind != kDielectric && p.depth + 1 >= frame.roulette_depth) {
+  if (!scales_radiance<Kind>(m) && p.depth + 1 >= frame.roulette_depth) {
     const float survival = survival_probability(throughput);
     if (u_lobe.y >= survival) return v;
     throughput = throughput * (1.0f / survival);
@@ -159,12 +218,13 @@ PHYS Vertex scatter(const UNI SceneView &scene, const UNI FrameView &frame, Path
 }
 
 /// One vertex of a path at a surface whose material is of this Kind.
-template <int Kind>
+template <int Kind, int D>
 PHYS Vertex path_vertex(const UNI SceneView &scene, const UNI FrameView &frame, PathState p,
                         Hit hit) {
-  const Surface s = make_surface(scene, hit, p.origin, p.direction);
-  const Material m = fetch(scene.materials, s.material);
-  return scatter<Kind>(scene, frame, p, m, s, arrive(scene, p, m, s));
+  const Surface s = make_surface<D>(scene, hit, p.origin, p.direction);
+  const Material m = surface_material<D>(scene, hit, s);
+  const Vertex v = arrive<D>(scene, p, s);
+  return scatter<Kind, D>(scene, frame, p, m, s, v);
 }
 
 PHALANX_END

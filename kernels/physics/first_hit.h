@@ -1,7 +1,7 @@
 // What the first surface of a path looks like to a denoiser or a compositor.
 #pragma once
 #include "fresnel.h"
-#include "surface.h"
+#include "surface_material.h"
 
 PHALANX_BEGIN
 
@@ -11,21 +11,33 @@ struct FirstHit {
   float depth;   // metres along the ray; 0 where nothing was hit
 };
 
+/// Reflectance as a denoiser wants it: at normal incidence, white for glass.
+PHYS Vec3 material_albedo(Material m) {
+  if (m.kind == kDielectric || m.kind == kRoughDielectric || m.kind == kThinDielectric)
+    return vec3(1.0f, 1.0f, 1.0f);
+  if ((m.kind == kConductor || m.kind == kGlossyConductor) && m.has_ior != 0)
+    return vec3(fresnel_conductor(1.0f, m.eta.x, m.k.x), fresnel_conductor(1.0f, m.eta.y, m.k.y),
+                fresnel_conductor(1.0f, m.eta.z, m.k.z));
+  if (m.kind == kBlack) return vec3(0.0f, 0.0f, 0.0f);
+  return m.reflectance;
+}
+
+template <int D>
 PHYS FirstHit first_hit(const UNI SceneView &scene, Hit hit, Vec3 origin, Vec3 direction) {
   FirstHit f;
   f.albedo = vec3(0.0f, 0.0f, 0.0f);
   f.normal = vec3(0.0f, 0.0f, 0.0f);
   f.depth = 0.0f;
   if (hit.geometry < 0) return f;
-  const Surface s = make_surface(scene, hit, origin, direction);
-  const Material m = scene.materials[s.material];
+  Surface s = make_surface<D>(scene, hit, origin, direction);
+  Material m = surface_material<D>(scene, hit, s);
+  if (D == kRich) {
+    m = textured_material(scene, m, s.at);
+    s.shading = mapped_frame(scene, m, s, direction);
+  }
   f.normal = s.shading.n;
   f.depth = length(s.position - origin);
-  if (m.kind == kDielectric) f.albedo = vec3(1.0f, 1.0f, 1.0f);
-  else if (m.kind == kConductor && m.has_ior != 0)
-    f.albedo = vec3(fresnel_conductor(1.0f, m.eta.x, m.k.x), fresnel_conductor(1.0f, m.eta.y, m.k.y),
-                    fresnel_conductor(1.0f, m.eta.z, m.k.z));
-  else if (m.kind != kBlack) f.albedo = m.reflectance;
+  f.albedo = material_albedo(m);
   return f;
 }
 

@@ -3,6 +3,7 @@
 // Every header in kernels/physics/ is compiled twice, by the C++ compiler (one path at a time) and by
 // ISPC (one path per lane). This is the only file that asks which of the two is running. The rules:
 //   PHYS       marks a physics function; values in, values out.
+//   PHYS_CALL  the same, never inlined: for what would make its callers too large to compile.
 //   UNI        marks what is the same for all lanes: scene data, settings. Nothing in C++.
 //   literals   always carry an f; array indices are int32; negate vectors with neg(v).
 // min, max and abs are defined here because the two languages disagree about NaN and signed zero.
@@ -11,6 +12,7 @@
 #ifdef ISPC
 
 #define PHYS static inline
+#define PHYS_CALL static noinline
 #define UNI uniform
 #define PHALANX_BEGIN
 #define PHALANX_END
@@ -42,6 +44,7 @@ PHYS T fetch(const uniform T *uniform array, int32 index) {
 #endif
 
 #define PHYS [[maybe_unused]] static inline
+#define PHYS_CALL [[maybe_unused, gnu::noinline]] static
 #define UNI
 #define PHALANX_BEGIN namespace phalanx {
 #define PHALANX_END }

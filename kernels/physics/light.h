@@ -15,6 +15,7 @@ struct LightSample {
   float distance;   // metres
   float pdf;        // per solid angle, > 0; 0: no usable sample
   Vec3 radiance;    // towards the receiver; black where the light's back is seen
+  int32 is_delta;   // 1: the light has no extent, nothing but sampling finds it
 };
 
 /// Light index by Walker's alias table; probability Light::select_pdf.
@@ -77,6 +78,7 @@ PHYS LightSample sample_light(const UNI SceneView &scene, Vec3 origin, Vec2 u_ch
   }
   const bool front = dot(n, origin - p) > 0.0f;
   LightSample s;
+  s.is_delta = 0;
   s.point = p;
   const Vec3 to_light = p + n * (front ? light.error : -light.error) - origin;
   s.distance = length(to_light);

@@ -1,5 +1,6 @@
 // Analytic shapes: ray intersection in forms that keep their digits far from the shape.
 #pragma once
+#include "mathx.h"
 #include "../scene_view.h"
 
 PHALANX_BEGIN
@@ -75,6 +76,19 @@ PHYS ShapeHit intersect_disk(Vec3 origin, Vec3 direction, Disk d, float t_min, f
   const Vec2 xy = disk_coordinates(origin + direction * t, d);
   if (xy.x * xy.x + xy.y * xy.y <= 1.0f) hit.t = t;
   return hit;
+}
+
+/// Texture coordinates of the point of a sphere with unit normal n: u runs around z from +x, v from 0 at -z
+/// to 1 at +z.
+PHYS Vec2 sphere_uv(Vec3 n) {
+  const float turns = atan2_turns(n.y, n.x);
+  return vec2(turns < 0.0f ? turns + 1.0f : turns, 1.0f - acos_of(n.z) * PHALANX_INV_PI);
+}
+
+/// Texture coordinates of a disk's point in units of its axes: radius and turns.
+PHYS Vec2 disk_uv(Vec2 xy) {
+  const float turns = atan2_turns(xy.y, xy.x);
+  return vec2(square_root(xy.x * xy.x + xy.y * xy.y), turns < 0.0f ? turns + 1.0f : turns);
 }
 
 PHALANX_END

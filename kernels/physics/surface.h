@@ -1,6 +1,8 @@
 // From a hit to a surface: where, which way it faces, and how far a new ray must start off it.
 #pragma once
+#include "mathx.h"
 #include "shape.h"
+#include "texture.h"
 
 PHALANX_BEGIN
 
@@ -11,6 +13,7 @@ struct Hit {
   int32 geometry, primitive;
   int32 instance;   // -1 outside instances
   int32 far_root;   // spheres: 1 if the ray met the far side
+  int32 material;   // 1 + the material that a blend came down to; 0: the geometry's own
 };
 
 /// True for barycentric coordinates so near an edge that a neighbour can be hit at the same distance.
@@ -29,8 +32,11 @@ struct Surface {
   Frame shading;     // its third axis on the side of the viewer, too
   float offset;      // metres along `normal` that clear the rounding error of position
   int32 front;       // 1: the viewer is on the side that the surface faces
-  int32 material;
+  int32 material;    // of the geometry: a blend where it is one
   int32 light;       // -1 where the material does not emit
+  // kRich only.
+  TexturePoint at;
+  Vec3 dpdu, dpdv;   // how position moves with uv; either may be 0
 };
 
 /// A bound on the rounding error of a point whose coordinates were computed from numbers no larger
@@ -46,6 +52,8 @@ PHYS Vec3 load_vec3(const UNI float *UNI values, int32 index) {
 struct LocalSurface {
   Vec3 position, normal, shading_normal;  // object space; normal is unit, shading_normal is not
   Vec3 extent;                            // largest absolute coordinates that entered position
+  Vec2 uv;                                // kRich only, like what follows
+  Vec3 dpdu, dpdv, colour;
 };
 
 struct PlanePoint {
@@ -72,6 +80,44 @@ PHYS PlanePoint meet_plane(Vec3 origin, Vec3 direction, Vec3 corner, Vec3 edge_u
   return p;
 }
 
+PHYS Vec2 load_vec2(const UNI float *UNI values, int32 index) {
+  return vec2(values[2 * index], values[2 * index + 1]);
+}
+
+/// Texture coordinates and vertex colours of a mesh at barycentric u, v. Without texture coordinates, uv
+/// are the barycentric ones.
+PHYS LocalSurface add_mesh_texture(const UNI SceneView &scene, Geometry g, Triangle t, float u,
+                                   float v, Vec3 edge_u, Vec3 edge_v, LocalSurface surface) {
+  LocalSurface s = surface;
+  const float w = 1.0f - u - v;
+  s.uv = vec2(u, v);
+  s.dpdu = edge_u;
+  s.dpdv = edge_v;
+  s.colour = vec3(1.0f, 1.0f, 1.0f);
+  if (g.has_uvs != 0) {
+    const Vec2 a = load_vec2(scene.vertex_uvs, t.v0 + g.uv_offset);
+    const Vec2 b = load_vec2(scene.vertex_uvs, t.v1 + g.uv_offset);
+    const Vec2 c = load_vec2(scene.vertex_uvs, t.v2 + g.uv_offset);
+    s.uv = vec2(a.x * w + b.x * u + c.x * v, a.y * w + b.y * u + c.y * v);
+    // The inverse of (u, v) -> uv, by Cramer's rule; a texture that is collapsed here has no direction.
+    const float bu = b.x - a.x;
+    const float bv = b.y - a.y;
+    const float cu = c.x - a.x;
+    const float cv = c.y - a.y;
+    const float determinant = bu * cv - bv * cu;
+    const float inverse = abs_of(determinant) > 1e-30f ? 1.0f / determinant : 0.0f;
+    s.dpdu = (edge_u * cv - edge_v * bv) * inverse;
+    s.dpdv = (edge_v * bu - edge_u * cu) * inverse;
+  }
+  if (g.has_colours != 0) {
+    s.colour = load_vec3(scene.vertex_colours, t.v0 + g.colour_offset) * w +
+               load_vec3(scene.vertex_colours, t.v1 + g.colour_offset) * u +
+               load_vec3(scene.vertex_colours, t.v2 + g.colour_offset) * v;
+  }
+  return s;
+}
+
+template <int D>
 PHYS LocalSurface mesh_surface(const UNI SceneView &scene, Geometry g, Hit hit, Vec3 origin,
                                Vec3 direction) {
   const Triangle t = scene.triangles[g.first + hit.primitive];
@@ -91,9 +137,11 @@ PHYS LocalSurface mesh_surface(const UNI SceneView &scene, Geometry g, Hit hit, 
                        load_vec3(scene.vertex_normals, t.v1 + g.normal_offset) * p.u +
                        load_vec3(scene.vertex_normals, t.v2 + g.normal_offset) * v;
   }
+  if (D == kRich) s = add_mesh_texture(scene, g, t, p.u, v, b - a, c - a, s);
   return s;
 }
 
+template <int D>
 PHYS LocalSurface quad_surface(const UNI SceneView &scene, Geometry g, Hit hit, Vec3 origin,
                                Vec3 direction) {
   const Quad q = fetch(scene.quads, g.first + hit.primitive);
@@ -103,9 +151,16 @@ PHYS LocalSurface quad_surface(const UNI SceneView &scene, Geometry g, Hit hit, 
   s.normal = p.normal;
   s.shading_normal = s.normal;
   s.extent = abs3(q.corner) + abs3(q.edge_u) + abs3(q.edge_v);
+  if (D == kRich) {
+    s.uv = vec2(p.u, p.v);
+    s.dpdu = q.edge_u;
+    s.dpdv = q.edge_v;
+    s.colour = vec3(1.0f, 1.0f, 1.0f);
+  }
   return s;
 }
 
+template <int D>
 PHYS LocalSurface sphere_surface(const UNI SceneView &scene, Geometry g, Hit hit, Vec3 origin,
                                  Vec3 direction) {
   const Sphere sphere = scene.spheres[g.first + hit.primitive];
@@ -115,9 +170,19 @@ PHYS LocalSurface sphere_surface(const UNI SceneView &scene, Geometry g, Hit hit
   s.position = sphere.center + s.normal * sphere.radius;
   s.shading_normal = s.normal;
   s.extent = abs3(sphere.center) + vec3(sphere.radius, sphere.radius, sphere.radius);
+  if (D == kRich) {
+    const Vec3 n = s.normal;
+    s.uv = sphere_uv(n);
+    const float ring = safe_sqrt(n.x * n.x + n.y * n.y);  // radius of the circle of latitude
+    const float towards = ring > 0.0f ? n.z / ring : 0.0f;
+    s.dpdu = vec3(-n.y, n.x, 0.0f) * (2.0f * PHALANX_PI * sphere.radius);
+    s.dpdv = vec3(-n.x * towards, -n.y * towards, ring) * (PHALANX_PI * sphere.radius);
+    s.colour = vec3(1.0f, 1.0f, 1.0f);
+  }
   return s;
 }
 
+template <int D>
 PHYS LocalSurface disk_surface(const UNI SceneView &scene, Geometry g, Hit hit, Vec3 origin,
                                Vec3 direction) {
   const Disk disk = scene.disks[g.first + hit.primitive];
@@ -128,10 +193,41 @@ PHYS LocalSurface disk_surface(const UNI SceneView &scene, Geometry g, Hit hit, 
   s.normal = safe_normalize(cross(disk.axis_u, disk.axis_v), vec3(0.0f, 0.0f, 1.0f));
   s.shading_normal = s.normal;
   s.extent = abs3(disk.center) + abs3(disk.axis_u) + abs3(disk.axis_v);
+  if (D == kRich) {
+    s.uv = disk_uv(xy);
+    const float inverse = s.uv.x > 0.0f ? 1.0f / s.uv.x : 0.0f;
+    s.dpdu = (disk.axis_u * xy.x + disk.axis_v * xy.y) * inverse;
+    s.dpdv = (disk.axis_v * xy.x - disk.axis_u * xy.y) * (2.0f * PHALANX_PI);
+    s.colour = vec3(1.0f, 1.0f, 1.0f);
+  }
   return s;
 }
 
+/// The surface of a primitive of geometry g, in the space of its group; the ray is in that space, too.
+template <int D>
+PHYS LocalSurface local_surface(const UNI SceneView &scene, Geometry g, Hit hit, Vec3 origin,
+                                Vec3 direction) {
+  if (g.shape == kMesh) return mesh_surface<D>(scene, g, hit, origin, direction);
+  if (g.shape == kQuads) return quad_surface<D>(scene, g, hit, origin, direction);
+  if (g.shape == kSpheres) return sphere_surface<D>(scene, g, hit, origin, direction);
+  return disk_surface<D>(scene, g, hit, origin, direction);
+}
+
+/// The shading frame around n whose first axis follows the texture's u; left-handed where the texture is
+/// mirrored, so that the second axis always follows v.
+PHYS Frame textured_frame(Vec3 n, Vec3 dpdu, Vec3 dpdv) {
+  const Vec3 along = safe_normalize(dpdu - n * dot(n, dpdu), vec3(0.0f, 0.0f, 0.0f));
+  if (is_black(along)) return make_frame(n);
+  Frame f;
+  f.n = n;
+  f.s = along;
+  f.t = cross(n, along);
+  if (dot(f.t, dpdv) < 0.0f) f.t = neg(f.t);
+  return f;
+}
+
 /// The surface at a hit (hit.geometry >= 0) of the ray (origin, direction), direction unit.
+template <int D>
 PHYS Surface make_surface(const UNI SceneView &scene, Hit hit, Vec3 origin, Vec3 direction) {
   const Geometry g = fetch(scene.geometries, hit.geometry);
   Vec3 o = origin;
@@ -141,11 +237,9 @@ PHYS Surface make_surface(const UNI SceneView &scene, Hit hit, Vec3 origin, Vec3
     o = transform_point(instance.to_object, origin);
     d = transform_vector(instance.to_object, direction);
   }
-  LocalSurface local;
-  if (g.shape == kMesh) local = mesh_surface(scene, g, hit, o, d);
-  else if (g.shape == kQuads) local = quad_surface(scene, g, hit, o, d);
-  else if (g.shape == kSpheres) local = sphere_surface(scene, g, hit, o, d);
-  else local = disk_surface(scene, g, hit, o, d);
+  LocalSurface local = local_surface<D>(scene, g, hit, o, d);
+  Surface s;
+  if (D == kRich) s.at.position = local.position;
 
   if (scene.num_instances > 0 && hit.instance >= 0) {
     const Instance instance = fetch(scene.instances, hit.instance);
@@ -154,9 +248,12 @@ PHYS Surface make_surface(const UNI SceneView &scene, Hit hit, Vec3 origin, Vec3
     local.normal = safe_normalize(transform_transposed(instance.to_object, local.normal),
                                   neg(direction));
     local.shading_normal = transform_transposed(instance.to_object, local.shading_normal);
+    if (D == kRich) {
+      local.dpdu = transform_vector(instance.to_world, local.dpdu);
+      local.dpdv = transform_vector(instance.to_world, local.dpdv);
+    }
   }
 
-  Surface s;
   const Vec3 outward = local.normal;
   s.position = local.position;
   s.front = dot(outward, direction) <= 0.0f ? 1 : 0;
@@ -166,7 +263,15 @@ PHYS Surface make_surface(const UNI SceneView &scene, Hit hit, Vec3 origin, Vec3
   // geometric normal takes over.
   if (s.front == 0) ns = neg(ns);
   if (!(dot(ns, direction) < 0.0f)) ns = s.normal;
-  s.shading = make_frame(ns);
+  if (D == kRich) {
+    s.at.uv = local.uv;
+    s.at.colour = local.colour;
+    s.dpdu = local.dpdu;
+    s.dpdv = local.dpdv;
+    s.shading = textured_frame(ns, local.dpdu, local.dpdv);
+  } else {
+    s.shading = make_frame(ns);
+  }
   s.offset = offset_bound(local.extent, s.normal);
   s.material = g.material;
   s.light = g.first_light >= 0 ? g.first_light + hit.primitive : -1;

@@ -33,7 +33,7 @@ std::int64_t num_visible_triangles(const Scene &scene) {
 }
 
 std::string materials_by_kind(const Scene &scene) {
-#define PHALANX_KIND(constant, name, density) #name,
+#define PHALANX_KIND(constant, name, density, transmits) #name,
   const char *const names[kNumMaterialKinds] = {PHALANX_MATERIAL_KINDS(PHALANX_KIND)};
 #undef PHALANX_KIND
   std::string text;

@@ -7,6 +7,8 @@
 
 #include "../core/parallel.h"
 #include "../scene/build.h"
+#include "../scene/build_lights.h"
+#include "../scene/build_materials.h"
 #include "columns.h"
 #include "filter.h"
 
@@ -27,7 +29,7 @@ struct KindFacts {
   bool has_density;
 };
 constexpr KindFacts kKinds[] = {
-#define PHALANX_KIND(constant, name, density) {#name, density != 0},
+#define PHALANX_KIND(constant, name, density, transmits) {#name, density != 0},
     PHALANX_MATERIAL_KINDS(PHALANX_KIND)
 #undef PHALANX_KIND
 };
@@ -55,35 +57,70 @@ void set_picture(Plan &plan, const SceneDescription &d, const RenderOptions &o) 
   plan.filter_offsets = filter_offsets(d.film);
   f.filter_offsets = plan.filter_offsets.data();
   f.sampler = d.sampler.kind;
+  f.spp = plan.spp;
   f.seed = o.seed.value_or(d.sampler.seed);
   f.max_depth = o.max_depth >= 0 ? o.max_depth : d.integrator.max_depth;
   f.roulette_depth = d.integrator.roulette_depth;
+  f.integrator = d.integrator.kind;
+  f.occlusion_distance = static_cast<float>(d.integrator.distance);
   Diagnostics diagnostics;
   f.camera = build_camera(d.camera, diagnostics);
   diagnostics.throw_if_errors();
 }
 
+/// Does a material have what the kernels of its kind do without in kPlain?
+bool needs_rich_kernels(const Material &m) {
+  return m.textured != 0 || m.one_sided != 0 || m.emission_texture >= 0 || m.normal_texture >= 0 ||
+         m.bump_texture >= 0;
+}
+
+/// Marks the kind of a material, or of all that a blend can come down to.
+void mark_kinds(Plan &plan, const Scene &scene, std::int32_t material) {
+  const Material &m = scene.materials[static_cast<size_t>(material)];
+  if (m.kind == kBlend) {
+    plan.blends = true;
+    mark_kinds(plan, scene, m.blend_a);
+    mark_kinds(plan, scene, m.blend_b);
+    return;
+  }
+  plan.material_kinds[m.kind] = true;
+  plan.rich |= m.kind >= kNumBasicKinds || needs_rich_kernels(m);
+}
+
 void find_uses(Plan &plan, const Scene &scene) {
   for (const Geometry &g : scene.geometries) {
-    plan.material_kinds[scene.materials[static_cast<size_t>(g.material)].kind] = true;
+    mark_kinds(plan, scene, g.material);
     plan.spheres |= g.shape == kSpheres;
     plan.disks |= g.shape == kDisks;
   }
+  const bool paths = plan.frame.integrator == kPathIntegrator;
+  plan.rich |= plan.blends || !paths || has_rich_lights(scene);
   bool density = false;
-  for (int kind = 0; kind < kNumMaterialKinds; ++kind)
+  for (int kind = 0; kind < kNumMaterialKinds; ++kind) {
     density |= plan.material_kinds[kind] && kKinds[kind].has_density;
-  plan.sample_lights = !scene.lights.empty() && plan.frame.max_depth > 0 && density;
+    if (plan.material_kinds[kind]) plan.buckets.push_back(kind);
+  }
+  plan.buckets.push_back(kEscaped);
+  plan.sample_lights = plan.frame.integrator == kAmbientOcclusion ||
+                       (paths && !scene.lights.empty() && plan.frame.max_depth > 0 && density);
   plan.instances = !scene.instances.empty();
   plan.environment = scene.has_environment;
 }
 
 void choose_kernels(Plan &plan) {
+  const char *detail = plan.rich ? "_rich" : "";
   plan.kernels = {"generate", "intersect"};
-  if (plan.aovs) plan.kernels.push_back("aov");
+  if (plan.blends) plan.kernels.push_back("resolve");
+  if (plan.aovs) plan.kernels.push_back(fmt::format("aov{}", detail));
   plan.kernels.push_back("bucket");
-  for (int kind = 0; kind < kNumMaterialKinds; ++kind)
-    if (plan.material_kinds[kind]) plan.kernels.push_back(fmt::format("shade_{}", kKinds[kind].name));
-  plan.kernels.push_back("shade_escaped");
+  if (plan.frame.integrator != kPathIntegrator) {
+    plan.kernels.push_back("shade_view");
+  } else {
+    for (int kind = 0; kind < kNumMaterialKinds; ++kind)
+      if (plan.material_kinds[kind])
+        plan.kernels.push_back(fmt::format("shade_{}{}", kKinds[kind].name, detail));
+  }
+  plan.kernels.push_back(fmt::format("shade_escaped{}", detail));
   if (plan.sample_lights) plan.kernels.push_back("shadow");
   plan.kernels.push_back("compact");
 }
@@ -121,7 +158,8 @@ void list_left_out(Plan &plan, const Scene &scene) {
     plan.left_out.push_back({"analytic spheres", "none in the scene",
                              bytes_without(plan, &Plan::spheres)});
   if (!plan.disks) plan.left_out.push_back({"analytic disks", "none in the scene", 0});
-  for (int kind = 0; kind < kNumMaterialKinds; ++kind)
+  // Other kinds are not listed: what a scene does without should not grow with what we learn.
+  for (int kind = 0; kind < kNumBasicKinds; ++kind)
     if (!plan.material_kinds[kind])
       plan.left_out.push_back({fmt::format("shade_{}", kKinds[kind].name), "no such material", 0});
   if (plan.frame.camera.lens_radius == 0)

@@ -40,8 +40,11 @@ struct Plan {
   bool environment = false;
   bool aovs = false;
   bool spheres = false, disks = false;  // analytic: Embree user geometry
+  bool rich = false;                    // kRich kernels: textures, other lights, other materials ...
+  bool blends = false;
   // What follows from that.
   std::vector<std::string> kernels;     // in the order of the main loop
+  std::vector<std::int32_t> buckets;    // material kinds that paths can meet, ascending, and kEscaped
   std::vector<Column> columns;          // of the wave
   std::vector<LeftOut> left_out;
   int wave_size = 0, tile_size = 0, samples_per_pass = 0;

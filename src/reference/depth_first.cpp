@@ -14,25 +14,27 @@ void store(float *block, int32 index, Vec3 v) {
   block[index + 2] = v.z;
 }
 
+template <int D>
 Vec3 path_radiance(const SceneView &scene, const FrameView &frame, PathState p, float *aov,
                    RayCounts &rays) {
   Vec3 radiance = {0, 0, 0};
   while (p.depth >= 0) {
     (p.depth == 0 ? rays.camera : rays.bounce) += 1;
-    const Hit hit = trace_closest(scene, p.origin, p.direction);
+    const Hit hit = resolve_hit<D>(scene, trace_closest(scene, p.origin, p.direction), p.origin,
+                                   p.direction, p.scramble, p.sample, p.depth);
     if (p.depth == 0 && aov != nullptr) {
-      const FirstHit f = first_hit(scene, hit, p.origin, p.direction);
+      const FirstHit f = first_hit<D>(scene, hit, p.origin, p.direction);
       store(aov, 0, f.albedo);
       store(aov, 3, f.normal);
       aov[6] = f.depth;
     }
     if (hit.geometry < 0) {
-      if (scene.has_environment != 0) radiance = radiance + escaped_radiance(scene, p);
+      if (sees_environment<D>(scene, frame)) radiance = radiance + escaped_radiance<D>(scene, p);
       break;
     }
-    const Vertex v = path_vertex_any(scene, frame, p, hit);
+    const Vertex v = path_vertex_any<D>(scene, frame, p, hit);
     radiance = radiance + v.emitted;
-    if (scene.num_lights > 0 && !is_black(v.shadow.contribution)) {
+    if (!is_black(v.shadow.contribution)) {
       rays.shadow += 1;
       if (!trace_occluded(scene, v.shadow.origin, v.shadow.direction, v.shadow.distance))
         radiance = radiance + v.shadow.contribution;
@@ -42,16 +44,23 @@ Vec3 path_radiance(const SceneView &scene, const FrameView &frame, PathState p, 
   return radiance;
 }
 
-}  // namespace
-
-void PHALANX_SCHEDULE(render_depth_first)(const SceneView &scene, const FrameView &frame,
-                                          const TileView &tile, RayCounts &rays) {
+template <int D>
+void render_samples(const SceneView &scene, const FrameView &frame, const TileView &tile,
+                    RayCounts &rays) {
   for (int32 i = 0; i < tile.num_samples; ++i) {
     const TileSample at = tile_sample(tile, i);
     float *aov = tile.aov != nullptr ? tile.aov + i * PHALANX_AOV_FLOATS : nullptr;
     const PathState p = start_path(frame, at.x, at.y, at.sample);
-    store(tile.radiance, 3 * i, path_radiance(scene, frame, p, aov, rays));
+    store(tile.radiance, 3 * i, path_radiance<D>(scene, frame, p, aov, rays));
   }
+}
+
+}  // namespace
+
+void PHALANX_SCHEDULE(render_depth_first)(const SceneView &scene, const FrameView &frame,
+                                          const TileView &tile, RayCounts &rays, int detail) {
+  if (detail == kRich) render_samples<kRich>(scene, frame, tile, rays);
+  else render_samples<kPlain>(scene, frame, tile, rays);
 }
 
 }  // namespace phalanx

@@ -48,7 +48,7 @@ void render_tile(Mode mode, const Kernels &kernels, const Plan &plan, const Scen
       break;
     case Mode::kMegakernel:
       w.clock.start();
-      kernels.megakernel(scene, plan.frame, tile, w.lanes);
+      (plan.rich ? kernels.megakernel_rich : kernels.megakernel)(scene, plan.frame, tile, w.lanes);
       w.rays.camera += tile.num_samples;
       w.rays.bounce = w.lanes[2];
       w.rays.shadow = w.lanes[3];
@@ -56,12 +56,12 @@ void render_tile(Mode mode, const Kernels &kernels, const Plan &plan, const Scen
       break;
     case Mode::kDepthFirst:
       w.clock.start();
-      kernels.depth_first(scene, plan.frame, tile, w.rays);
+      kernels.depth_first(scene, plan.frame, tile, w.rays, plan.rich ? kRich : kPlain);
       w.clock.lap(kStageShade, tile.num_samples);
       break;
     case Mode::kRecursive:
       w.clock.start();
-      kernels.recursive(scene, plan.frame, tile, w.rays);
+      kernels.recursive(scene, plan.frame, tile, w.rays, plan.rich ? kRich : kPlain);
       w.clock.lap(kStageShade, tile.num_samples);
       break;
   }

@@ -8,10 +8,12 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <tuple>
 
 #include "../../kernels/embree_version.h"
+#include "../../kernels/physics/opacity.h"
 #include "../../kernels/physics/shape.h"
 #include "../core/error.h"
 #include "trace.h"
@@ -73,16 +75,61 @@ void collect_all(const RTCFilterFunctionNArguments *args) {
   args->valid[0] = 0;  // go on looking
 }
 
+struct RayRead {
+  Vec3 origin, direction;
+  unsigned id;  // ray_id()
+};
+RayRead read_ray(RTCRayN *ray, unsigned n, unsigned i) {
+  return {{RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i)},
+          {RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i)},
+          RTCRayN_id(ray, n, i)};
+}
+
+// ---- opacity ----------------------------------------------------------------------------------
+
+/// A geometry whose material may let rays through.
+struct Holes {
+  const SceneView *scene = nullptr;
+  int32 geometry = 0;  // record
+
+  bool let_pass(const RayRead &ray, unsigned primitive, int32 far_root) const {
+    Hit hit = {};
+    hit.geometry = geometry;
+    hit.primitive = static_cast<int32>(primitive);
+    hit.far_root = far_root;
+    return passes_through(*scene, hit, ray.origin, ray.direction, ray.id);
+  }
+};
+
+void filter_holes(const RTCFilterFunctionNArguments *args) {
+  const auto *holes = static_cast<const Holes *>(args->geometryUserPtr);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    const RayRead ray = read_ray(args->ray, args->N, i);
+    if (holes->let_pass(ray, RTCHitN_primID(args->hit, args->N, i), 0)) args->valid[i] = 0;
+  }
+}
+
 // ---- spheres and disks ------------------------------------------------------------------------
 
 /// What the callbacks of one geometry need.
 struct AnalyticShapes {
   const Sphere *spheres = nullptr;  // one of the two
   const Disk *disks = nullptr;
+  Holes holes;                      // holes.scene is null where there are none
 
-  ShapeHit intersect(unsigned id, Vec3 o, Vec3 d, float t_min, float t_max) const {
-    if (spheres != nullptr) return intersect_sphere(o, d, spheres[id], t_min, t_max);
-    return intersect_disk(o, d, disks[id], t_min, t_max);
+  ShapeHit intersect(unsigned id, const RayRead &ray, float t_min, float t_max) const {
+    ShapeHit hit = nearest(id, ray, t_min, t_max);
+    while (hit.t >= 0 && holes.scene != nullptr && holes.let_pass(ray, id, hit.far_root))
+      hit = nearest(id, ray, std::nextafter(hit.t, PHALANX_FAR), t_max);
+    return hit;
+  }
+
+ private:
+  ShapeHit nearest(unsigned id, const RayRead &ray, float t_min, float t_max) const {
+    if (spheres != nullptr)
+      return intersect_sphere(ray.origin, ray.direction, spheres[id], t_min, t_max);
+    return intersect_disk(ray.origin, ray.direction, disks[id], t_min, t_max);
   }
 };
 
@@ -112,14 +159,6 @@ void analytic_bounds(const RTCBoundsFunctionArguments *args) {
   b->upper_z = c.z + r.z + slack.z;
 }
 
-struct RayRead {
-  Vec3 origin, direction;
-};
-RayRead read_ray(RTCRayN *ray, unsigned n, unsigned i) {
-  return {{RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i)},
-          {RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i)}};
-}
-
 void analytic_intersect(const RTCIntersectFunctionNArguments *args) {
   const auto *shapes = static_cast<const AnalyticShapes *>(args->geometryUserPtr);
   RTCRayN *ray = RTCRayHitN_RayN(args->rayhit, args->N);
@@ -127,8 +166,7 @@ void analytic_intersect(const RTCIntersectFunctionNArguments *args) {
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] != -1) continue;
     const RayRead r = read_ray(ray, args->N, i);
-    const ShapeHit found = shapes->intersect(args->primID, r.origin, r.direction,
-                                             RTCRayN_tnear(ray, args->N, i),
+    const ShapeHit found = shapes->intersect(args->primID, r, RTCRayN_tnear(ray, args->N, i),
                                              RTCRayN_tfar(ray, args->N, i));
     if (found.t < 0) continue;
     if (phalanx_collects(args->context)) {
@@ -149,8 +187,7 @@ void analytic_occluded(const RTCOccludedFunctionNArguments *args) {
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] != -1) continue;
     const RayRead r = read_ray(args->ray, args->N, i);
-    const ShapeHit found = shapes->intersect(args->primID, r.origin, r.direction,
-                                             RTCRayN_tnear(args->ray, args->N, i),
+    const ShapeHit found = shapes->intersect(args->primID, r, RTCRayN_tnear(args->ray, args->N, i),
                                              RTCRayN_tfar(args->ray, args->N, i));
     if (found.t >= 0) RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
   }
@@ -166,6 +203,8 @@ struct Accel::State {
   RTCDevice device = nullptr;
   std::vector<RTCScene> scenes;  // groups first, top level last
   std::vector<std::unique_ptr<AnalyticShapes>> analytic;
+  SceneView view = {};           // for opacity only
+  std::vector<std::unique_ptr<Holes>> holes;
 
   ~State() {
     for (RTCScene s : scenes) rtcReleaseScene(s);
@@ -189,6 +228,20 @@ struct Accel::State {
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(target, geometry, id);
     rtcReleaseGeometry(geometry);
+  }
+
+  Holes holes_of(const Scene &scene, std::int32_t g) const {
+    const Material &m = scene.materials[static_cast<size_t>(scene.geometries[g].material)];
+    return {has_holes(m) ? &view : nullptr, g};
+  }
+
+  void add_holes(RTCGeometry geometry, const Scene &scene, std::int32_t g) {
+    const Holes found = holes_of(scene, g);
+    if (found.scene == nullptr) return;
+    holes.push_back(std::make_unique<Holes>(found));
+    rtcSetGeometryUserData(geometry, holes.back().get());
+    rtcSetGeometryIntersectFilterFunction(geometry, filter_holes);
+    rtcSetGeometryOccludedFilterFunction(geometry, filter_holes);
   }
 
   RTCGeometry mesh(const Scene &scene, std::int32_t g) {
@@ -229,6 +282,7 @@ struct Accel::State {
     auto shapes = std::make_unique<AnalyticShapes>();
     if (record.shape == kSpheres) shapes->spheres = scene.spheres.data() + record.first;
     else shapes->disks = scene.disks.data() + record.first;
+    shapes->holes = holes_of(scene, g);
     RTCGeometry u = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(u, static_cast<unsigned>(scene.num_prims[g]));
     rtcSetGeometryUserData(u, shapes.get());
@@ -246,6 +300,7 @@ struct Accel::State {
       RTCGeometry geometry = shape == kMesh    ? mesh(scene, g)
                              : shape == kQuads ? quads(scene, g)
                                                : analytic_shapes(scene, g);
+      if (shape == kMesh || shape == kQuads) add_holes(geometry, scene, g);
       attach(target, geometry, static_cast<unsigned>(i));
     }
   }
@@ -263,6 +318,7 @@ struct Accel::State {
 
 Accel::Accel(const Scene &scene, const std::string &isa, int threads)
     : state_(std::make_unique<State>()) {
+  state_->view = scene.view();
   const std::string config = fmt::format("isa={},threads={}", embree_isa(isa), threads);
   state_->device = rtcNewDevice(config.c_str());
   if (state_->device == nullptr) throw std::runtime_error("Embree cannot start with " + config);
@@ -292,7 +348,7 @@ std::string Accel::library_version() { return "Embree " RTC_VERSION_STRING; }
 // ---- queries of one ray -----------------------------------------------------------------------
 
 namespace {
-void set_ray(RTCRay &r, Vec3 origin, Vec3 direction, float t_far) {
+void set_ray(RTCRay &r, Vec3 origin, Vec3 direction, float t_far, uint32 id) {
   r.org_x = origin.x;
   r.org_y = origin.y;
   r.org_z = origin.z;
@@ -303,16 +359,17 @@ void set_ray(RTCRay &r, Vec3 origin, Vec3 direction, float t_far) {
   r.time = 0;
   r.tfar = t_far;
   r.mask = ~0u;
-  r.id = 0;
+  r.id = id;
   r.flags = 0;
 }
 }  // namespace
 
-extern "C" void phalanx_resolve_tie(void *accel, const float ray[6], float t, int32 ids[3]) {
+extern "C" void phalanx_resolve_tie(void *accel, const float ray[6], float t, uint32 id,
+                                    int32 ids[3]) {
   RTCRayHit r;
   // A little further than the hit, so that all that share its distance are met.
   const float t_far = t * 1.000001f;
-  set_ray(r.ray, {ray[0], ray[1], ray[2]}, {ray[3], ray[4], ray[5]}, t_far);
+  set_ray(r.ray, {ray[0], ray[1], ray[2]}, {ray[3], ray[4], ray[5]}, t_far, id);
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   TieContext tie;
@@ -327,7 +384,7 @@ extern "C" void phalanx_resolve_tie(void *accel, const float ray[6], float t, in
 
 Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction) {
   RTCRayHit r;
-  set_ray(r.ray, origin, direction, PHALANX_FAR);
+  set_ray(r.ray, origin, direction, PHALANX_FAR, ray_id(scene, origin, direction));
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   phalanx_intersect(scene.accel, &r, false);
@@ -335,12 +392,13 @@ Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction) {
   hit.geometry = static_cast<int32>(r.hit.geomID);
   hit.primitive = static_cast<int32>(r.hit.primID);
   hit.instance = -1;
+  hit.material = 0;
   hit.far_root = scene.num_spheres > 0 && r.hit.u >= 0.5f ? 1 : 0;
   auto instance = static_cast<int32>(r.hit.instID[0]);
   if (hit.geometry >= 0 && may_tie(r.hit.u, r.hit.v)) {
     const float ray[] = {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z};
     int32 ids[] = {hit.geometry, hit.primitive, instance};
-    phalanx_resolve_tie(scene.accel, ray, r.ray.tfar, ids);
+    phalanx_resolve_tie(scene.accel, ray, r.ray.tfar, r.ray.id, ids);
     hit.geometry = ids[0];
     hit.primitive = ids[1];
     instance = ids[2];
@@ -354,7 +412,7 @@ Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction) {
 
 bool trace_occluded(const SceneView &scene, Vec3 origin, Vec3 direction, float distance) {
   RTCRay r;
-  set_ray(r, origin, direction, distance);
+  set_ray(r, origin, direction, distance, ray_id(scene, origin, direction));
   phalanx_occluded(scene.accel, &r, false);
   return r.tfar < 0;
 }

@@ -150,4 +150,9 @@ void build_lights(Scene &scene) {
   scene.alias_other = std::move(table.other);
 }
 
+bool has_rich_lights(const Scene &scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(),
+                     [](const Light &light) { return light.kind >= kPointLight; });
+}
+
 }  // namespace phalanx

@@ -13,4 +13,7 @@ constexpr double kMinLightShare = 1.0 / (1 << 20);
 /// but at least kMinLightShare / number of lights; select_pdf is what the rounded table gives.
 void build_lights(Scene &scene);
 
+/// Does the scene have light that kPlain kernels do not know?
+bool has_rich_lights(const Scene &scene);
+
 }  // namespace phalanx

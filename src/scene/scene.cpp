@@ -1,5 +1,7 @@
 #include "scene.h"
 
+#include "../../kernels/physics/opacity.h"
+
 namespace phalanx {
 namespace {
 
@@ -24,7 +26,7 @@ std::int64_t Scene::bytes() const {
   return bytes_of(materials) + bytes_of(geometries) + bytes_of(num_prims) + bytes_of(positions) +
          bytes_of(vertex_normals) + bytes_of(triangles) + bytes_of(quads) + bytes_of(spheres) +
          bytes_of(disks) + bytes_of(instances) + bytes_of(instance_group) + bytes_of(groups) +
-         bytes_of(lights) + bytes_of(alias_threshold) + bytes_of(alias_other);
+         bytes_of(lights) + bytes_of(alias_threshold) + bytes_of(alias_other) + bytes_of(tables);
 }
 
 SceneView Scene::view() const {
@@ -41,6 +43,7 @@ SceneView Scene::view() const {
   view.lights = lights.data();
   view.alias_threshold = alias_threshold.data();
   view.alias_other = alias_other.data();
+  view.tables = tables.data();
   view.num_materials = count_of(materials);
   view.num_geometries = count_of(geometries);
   view.num_lights = count_of(lights);
@@ -49,6 +52,10 @@ SceneView Scene::view() const {
   view.num_top_geometries = top_level.count;
   view.has_environment = has_environment ? 1 : 0;
   view.environment = environment;
+  for (const Material &m : materials) {
+    view.has_blends |= m.kind == kBlend ? 1 : 0;
+    view.has_opacity |= has_holes(m) ? 1 : 0;
+  }
   return view;
 }
 

@@ -16,7 +16,19 @@ bool has_avx2() {
 
 }  // namespace
 
-std::vector<std::string> known_isas() { return {"sse4", "avx2", "avx512skx"}; }
+std::vector<std::string> known_isas() {
+  return {
+#ifdef PHALANX_HAS_sse4
+      "sse4",
+#endif
+#ifdef PHALANX_HAS_avx2
+      "avx2",
+#endif
+#ifdef PHALANX_HAS_avx512skx
+      "avx512skx",
+#endif
+  };
+}
 
 bool isa_supported(const std::string &isa) {
   if (isa == "sse4") return __builtin_cpu_supports("sse4.2");
@@ -53,9 +65,16 @@ std::string resolve_isa(const std::string &wanted) {
 }
 
 const Kernels &kernels_for(const std::string &isa) {
+#ifdef PHALANX_HAS_avx512skx
   if (isa == "avx512skx") return kernels_avx512skx();
+#endif
+#ifdef PHALANX_HAS_avx2
   if (isa == "avx2") return kernels_avx2();
-  return kernels_sse4();
+#endif
+#ifdef PHALANX_HAS_sse4
+  if (isa == "sse4") return kernels_sse4();
+#endif
+  throw InputError(fmt::format("this program was built without kernels for {}", isa));
 }
 
 }  // namespace phalanx

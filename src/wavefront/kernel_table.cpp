@@ -14,7 +14,10 @@
 #define __ISPC_STRUCT_Sphere__
 #define __ISPC_STRUCT_Disk__
 #define __ISPC_STRUCT_Instance__
+#define __ISPC_STRUCT_Texture__
 #define __ISPC_STRUCT_Light__
+#define __ISPC_STRUCT_LightNode__
+#define __ISPC_STRUCT_LightProfile__
 #define __ISPC_STRUCT_SceneView__
 #define __ISPC_STRUCT_Camera__
 #define __ISPC_STRUCT_FrameView__
@@ -30,10 +33,18 @@ using phalanx::WaveView;
 #include "aov_ispc.h"
 #include "bucket_ispc.h"
 #include "compact_ispc.h"
+#include "escaped_ispc.h"
 #include "generate_ispc.h"
 #include "intersect_ispc.h"
 #include "megakernel_ispc.h"
+#include "resolve_ispc.h"
+#include "shade_hair_ispc.h"
+#include "shade_interface_ispc.h"
 #include "shade_ispc.h"
+#include "shade_principled_ispc.h"
+#include "shade_rich_basic_ispc.h"
+#include "shade_rough_ispc.h"
+#include "shade_view_ispc.h"
 #include "shadow_ispc.h"
 
 #define PHALANX_CAT2(a, b) a##_##b
@@ -53,14 +64,24 @@ const Kernels &PHALANX_CAT(kernels, PHALANX_ISA)() {
       KERNEL(aov),
       KERNEL(bucket),
       {
-#define PHALANX_KIND(constant, name, density) KERNEL(shade_##name),
-          PHALANX_MATERIAL_KINDS(PHALANX_KIND)
+#define PHALANX_KIND(constant, name, density, transmits) KERNEL(shade_##name),
+          PHALANX_BASIC_KINDS(PHALANX_KIND)
 #undef PHALANX_KIND
       },
       KERNEL(shade_escaped),
       KERNEL(shadow),
       KERNEL(compact),
+      KERNEL(resolve),
+      KERNEL(aov_rich),
+      {
+#define PHALANX_KIND(constant, name, density, transmits) KERNEL(shade_##name##_rich),
+          PHALANX_MATERIAL_KINDS(PHALANX_KIND)
+#undef PHALANX_KIND
+      },
+      KERNEL(shade_view),
+      KERNEL(shade_escaped_rich),
       KERNEL(megakernel),
+      KERNEL(megakernel_rich),
       PHALANX_CAT(render_depth_first, PHALANX_ISA),
       PHALANX_CAT(render_recursive, PHALANX_ISA),
   };

@@ -11,6 +11,13 @@
 
 namespace phalanx {
 
+using SlotsKernel = void(const SceneView &, const TileView &, const WaveView &, const int32 *slots,
+                         int32 count);
+using ShadeKernel = int32(const SceneView &, const FrameView &, const TileView &, const WaveView &,
+                          const int32 *slots, int32 count, int32 num_shadow);
+using EscapedKernel = void(const SceneView &, const FrameView &, const TileView &, const WaveView &,
+                           const int32 *slots, int32 count);
+
 struct Kernels {
   const char *isa;
   int width;  // lanes of a gang
@@ -20,22 +27,28 @@ struct Kernels {
                    int32 first_index, int32 count);
   void (*intersect)(const SceneView &, const WaveView &, const int32 *slots, int32 count,
                     int32 coherent);
-  void (*aov)(const SceneView &, const TileView &, const WaveView &, const int32 *slots,
-              int32 count);
-  void (*bucket)(const WaveView &, int32 num_slots, int32 *counts);
-  int32 (*shade[kNumMaterialKinds])(const SceneView &, const FrameView &, const TileView &,
-                                    const WaveView &, const int32 *slots, int32 count,
-                                    int32 num_shadow);
-  void (*shade_escaped)(const SceneView &, const TileView &, const WaveView &, const int32 *slots,
-                        int32 count);
+  SlotsKernel *aov;
+  void (*bucket)(const WaveView &, int32 num_slots, const int32 *kinds, int32 num_kinds,
+                 int32 *counts);
+  ShadeKernel *shade[kNumBasicKinds];  // kPlain
+  EscapedKernel *shade_escaped;
   void (*shadow)(const SceneView &, const TileView &, const WaveView &, const int32 *slots,
                  int32 count, int32 coherent);
   int32 (*compact)(const WaveView &);
+  // kRich: with everything that a scene can have.
+  SlotsKernel *resolve, *aov_rich;
+  ShadeKernel *shade_rich[kNumMaterialKinds];
+  ShadeKernel *shade_view;
+  EscapedKernel *shade_escaped_rich;
 
   // The other schedules: all samples of a tile.
   void (*megakernel)(const SceneView &, const FrameView &, const TileView &, std::int64_t *counts);
-  void (*depth_first)(const SceneView &, const FrameView &, const TileView &, RayCounts &);
-  void (*recursive)(const SceneView &, const FrameView &, const TileView &, RayCounts &);
+  void (*megakernel_rich)(const SceneView &, const FrameView &, const TileView &,
+                          std::int64_t *counts);
+  void (*depth_first)(const SceneView &, const FrameView &, const TileView &, RayCounts &,
+                      int detail);
+  void (*recursive)(const SceneView &, const FrameView &, const TileView &, RayCounts &,
+                    int detail);
 };
 
 const Kernels &kernels_sse4();

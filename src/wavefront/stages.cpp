@@ -6,9 +6,11 @@ const char *stage_name(int stage) {
   switch (stage) {
     case kStageGenerate: return "generate";
     case kStageIntersect: return "intersect";
+    case kStageResolve: return "resolve";
+    case kStageView: return "shade view";
     case kStageAov: return "aov";
     case kStageBucket: return "bucket";
-#define PHALANX_KIND(constant, name, density) \
+#define PHALANX_KIND(constant, name, density, transmits) \
   case kStageShade + int{constant}: return "shade " #name;
       PHALANX_MATERIAL_KINDS(PHALANX_KIND)
 #undef PHALANX_KIND

@@ -12,10 +12,12 @@ namespace phalanx {
 enum Stage {
   kStageGenerate,
   kStageIntersect,
+  kStageResolve,
   kStageAov,
   kStageBucket,
   kStageShade,                                          // one per material kind
-  kStageEscaped = kStageShade + kNumMaterialKinds,
+  kStageView = kStageShade + kNumMaterialKinds,
+  kStageEscaped,
   kStageShadow,
   kStageCompact,
   kStageFilm,

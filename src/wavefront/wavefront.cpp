@@ -3,6 +3,20 @@
 #include <algorithm>
 
 namespace phalanx {
+namespace {
+
+struct Shading {
+  ShadeKernel *kernel;
+  int stage;
+};
+
+/// What happens to paths that met this kind of material.
+Shading shading_of(const Kernels &k, const Plan &plan, int32 kind) {
+  if (plan.frame.integrator != kPathIntegrator) return {k.shade_view, kStageView};
+  return {plan.rich ? k.shade_rich[kind] : k.shade[kind], kStageShade + kind};
+}
+
+}  // namespace
 
 void render_wavefront(const Kernels &k, const Plan &plan, const SceneView &scene,
                       const TileView &tile, Wave &paths, StageClock &clock, RayCounts &rays) {
@@ -29,27 +43,36 @@ void render_wavefront(const Kernels &k, const Plan &plan, const SceneView &scene
     rays.camera += num_fresh;
     rays.bounce += num_active;
     clock.lap(kStageIntersect, num_fresh + num_active);
+    if (plan.blends) {
+      k.resolve(scene, tile, wave, wave.free, num_fresh);
+      k.resolve(scene, tile, wave, wave.active, num_active);
+      clock.lap(kStageResolve, num_fresh + num_active);
+    }
     if (plan.aovs) {
-      k.aov(scene, tile, wave, wave.free, num_fresh);
+      (plan.rich ? k.aov_rich : k.aov)(scene, tile, wave, wave.free, num_fresh);
       clock.lap(kStageAov, num_fresh);
     }
 
     // Bucket: order the paths by the kind of material they hit.
     int32 counts[kNumMaterialKinds + 1];
-    k.bucket(wave, wave.capacity, counts);
+    const auto num_buckets = static_cast<int32>(plan.buckets.size());
+    k.bucket(wave, wave.capacity, plan.buckets.data(), num_buckets, counts);
     clock.lap(kStageBucket, num_fresh + num_active, wave.capacity);
 
     // Shade: one kernel per kind; each appends its shadow rays.
     const int32 *slots = wave.order;
     int32 num_shadow = 0;
-    for (int kind = 0; kind < kNumMaterialKinds; ++kind) {
-      if (counts[kind] == 0) continue;
-      num_shadow = k.shade[kind](scene, frame, tile, wave, slots, counts[kind], num_shadow);
-      slots += counts[kind];
-      clock.lap(kStageShade + kind, counts[kind]);
+    for (int b = 0; b < num_buckets - 1; ++b) {
+      if (counts[b] == 0) continue;
+      const Shading shading = shading_of(k, plan, plan.buckets[static_cast<std::size_t>(b)]);
+      num_shadow = shading.kernel(scene, frame, tile, wave, slots, counts[b], num_shadow);
+      slots += counts[b];
+      clock.lap(shading.stage, counts[b]);
     }
-    k.shade_escaped(scene, tile, wave, slots, counts[kNumMaterialKinds]);
-    clock.lap(kStageEscaped, counts[kNumMaterialKinds]);
+    const int32 num_escaped = counts[num_buckets - 1];
+    (plan.rich ? k.shade_escaped_rich : k.shade_escaped)(scene, frame, tile, wave, slots,
+                                                         num_escaped);
+    clock.lap(kStageEscaped, num_escaped);
 
     // Shadow: add the light samples that nothing is in the way of.
     k.shadow(scene, tile, wave, wave.shadow_list, num_shadow, 0);

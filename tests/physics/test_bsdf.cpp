@@ -1,14 +1,7 @@
 // BSDFs: sampling, value and density tell the same story; energy and reciprocity hold.
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "../../kernels/physics/bsdf.h"
-#include "support/local_directions.h"
-#include "support/materials.h"
-#include "support/random.h"
-#include "support/statistics.h"
+#include "support/bsdf_checks.h"
 
 using namespace phalanx;
 using namespace phalanx::test;
@@ -16,12 +9,6 @@ using namespace phalanx::test;
 namespace {
 
 constexpr float kAlphas[] = {1e-3f, 5e-3f, 0.01f, 0.05f, 0.1f, 0.25f, 0.5f, 0.75f, 1.0f};
-
-Vec3 upper(Random &random, float least = 1e-3f) {
-  Vec3 w = random.direction();
-  w.z = std::max(std::fabs(w.z), least);
-  return normalize(w);
-}
 
 Material gold(float alpha) {
   Material m = conductor(alpha);
@@ -31,111 +18,56 @@ Material gold(float alpha) {
   return m;
 }
 
-/// Mean weight of sampled directions: the albedo seen from wo.
-template <int Kind>
-Mean albedo(const Material &m, Vec3 wo, int samples) {
-  Random random(23);
-  Mean mean;
-  for (int i = 0; i < samples; ++i)
-    mean.add(
-        static_cast<double>(sample_bsdf<Kind>(m, 1, wo, random.square(), random.unit()).weight.x));
-  return mean;
-}
-
-/// Integral of f cos by quadrature.
-template <int Kind>
-double integrated_albedo(const Material &m, Vec3 wo) {
-  const auto f_cos = [&](double cosine, double phi) {
-    const double sine = std::sqrt(1 - cosine * cosine);
-    const Vec3 wi = vec3(static_cast<float>(sine * std::cos(phi)),
-                         static_cast<float>(sine * std::sin(phi)), static_cast<float>(cosine));
-    return static_cast<double>(eval_bsdf<Kind>(m, wo, wi).f_cos.x);
-  };
-  double sum = 0;
-  for (const double part : cell_masses(hemisphere_grid(32, 64), f_cos)) sum += part;
-  return sum;
-}
-
-double relative(float a, float b) {
-  if (b == 0.0f) return std::fabs(static_cast<double>(a));
-  return relative_error(static_cast<double>(a), static_cast<double>(b));
-}
-
 }  // namespace
 
 TEST_CASE("bsdf: weight times density is f cos, and both agree on the density") {
-  // Worst relative difference. A half vector of rounded directions is known to 1e-7 / (wo.h) only,
-  // which matters relative to alpha: differences are divided by that condition, at least 1.
-  const auto worst_difference = []<int Kind>(const Material &m) {
-    Random random(1);
-    double worst = 0;
-    for (int i = 0; i < 50000; ++i) {
-      const Vec3 wo = i < 9 ? local_directions()[static_cast<std::size_t>(i)] : upper(random);
-      const BsdfSample s = sample_bsdf<Kind>(m, 1, wo, random.square(), random.unit());
-      if (!(s.pdf > 0)) continue;
-      const BsdfValue v = eval_bsdf<Kind>(m, wo, s.wi);
-      const double wo_h = 0.5 * static_cast<double>(length(wo + s.wi));
-      const double condition =
-          Kind == kConductor ? std::max(1.0, 0.01 / (static_cast<double>(m.alpha) * wo_h)) : 1.0;
-      for (const double d :
-           {relative(v.pdf, s.pdf), relative(v.f_cos.x, s.weight.x * s.pdf),
-            relative(v.f_cos.y, s.weight.y * s.pdf), relative(v.f_cos.z, s.weight.z * s.pdf)})
-        worst = std::max(worst, d / condition);
-    }
-    return worst;
-  };
-  CHECK(worst_difference.operator()<kDiffuse>(diffuse(0.7f)) < 1e-6);
+  CHECK(worst_difference(Seen<kDiffuse>{diffuse(0.7f)}) < 1e-6);
   for (const float alpha : kAlphas) {
     CAPTURE(alpha);
-    CHECK(worst_difference.operator()<kConductor>(gold(alpha)) < 1e-4);
+    // A half vector of rounded directions is known to 1e-7 / (wo.h) only, which matters relative to
+    // alpha.
+    const auto condition = [&](Vec3 wo, Vec3 wi) {
+      const double wo_h = 0.5 * static_cast<double>(length(wo + wi));
+      return std::max(1.0, 0.01 / (static_cast<double>(alpha) * wo_h));
+    };
+    CHECK(worst_difference(Seen<kConductor>{gold(alpha)}, condition) < 1e-4);
   }
 }
 
 TEST_CASE("bsdf: f(wo, wi) = f(wi, wo) (M10)") {
-  Random random(2);
-  const auto check = [&]<int Kind>(const Material &m) {
-    double worst = 0;
-    for (int i = 0; i < 100000; ++i) {
-      const Vec3 wo = upper(random), wi = upper(random);
-      const float f = eval_bsdf<Kind>(m, wo, wi).f_cos.y / wi.z;
-      const float g = eval_bsdf<Kind>(m, wi, wo).f_cos.y / wo.z;
-      worst = std::max(worst, relative(f, g));
-    }
-    return worst;
-  };
-  CHECK(check.operator()<kDiffuse>(diffuse(0.5f)) < 1e-6);
+  CHECK(worst_asymmetry(Seen<kDiffuse>{diffuse(0.5f)}) < 1e-6);
   for (const float alpha : {1e-3f, 0.01f, 0.1f, 0.5f, 1.0f}) {
     CAPTURE(alpha);
-    CHECK(check.operator()<kConductor>(gold(alpha)) < 1e-4);
-    CHECK(check.operator()<kConductor>(conductor(alpha)) < 1e-4);
+    CHECK(worst_asymmetry(Seen<kConductor>{gold(alpha)}) < 1e-4);
+    CHECK(worst_asymmetry(Seen<kConductor>{conductor(alpha)}) < 1e-4);
   }
 }
 
 TEST_CASE("furnace: white diffuse reflects everything, from everywhere") {
   for (const Vec3 wo : local_directions()) {
-    const Mean mean = albedo<kDiffuse>(diffuse(1), wo, 100000);
+    const Mean mean = albedo(Seen<kDiffuse>{diffuse(1)}, wo, 100000);
     CHECK(mean.mean() == 1.0);  // the weight is the albedo itself
-    CHECK(integrated_albedo<kDiffuse>(diffuse(1), wo) == doctest::Approx(1).epsilon(1e-5));
+    CHECK(integrated_albedo(Seen<kDiffuse>{diffuse(1)}, wo) == doctest::Approx(1).epsilon(1e-5));
   }
 }
 
 TEST_CASE("furnace: a white conductor never gains energy, and both integrals agree (M9)") {
   for (const float alpha : kAlphas)
     for (const Vec3 wo : local_directions()) {
-      const Mean mean = albedo<kConductor>(conductor(alpha), wo, 100000);
+      const Mean mean = albedo(Seen<kConductor>{conductor(alpha)}, wo, 100000);
       CAPTURE(alpha);
       CAPTURE(wo.z);
       CHECK(mean.mean() <= 1 + 3 * mean.standard_error());
       if (alpha >= 0.1f)
-        CHECK(mean.p(integrated_albedo<kConductor>(conductor(alpha), wo), 2e-4) > test::alpha());
+        CHECK(mean.p(integrated_albedo(Seen<kConductor>{conductor(alpha)}, wo), 2e-4) > test::alpha());
     }
 }
 
 TEST_CASE("furnace: known losses of single-scattering GGX (M9)") {
   // alpha = 1 seen along the normal: 1 - ln 2.
   const Vec3 up = vec3(0, 0, 1);
-  CHECK(integrated_albedo<kConductor>(conductor(1), up) == doctest::Approx(0.306853).epsilon(2e-5));
-  CHECK(albedo<kConductor>(conductor(1), up, 1000000).p(0.30685282) > test::alpha());
+  CHECK(integrated_albedo(Seen<kConductor>{conductor(1)}, up) == doctest::Approx(0.306853).epsilon(2e-5));
+  CHECK(albedo(Seen<kConductor>{conductor(1)}, up, 1000000).p(0.30685282) > test::alpha());
   // Averages over a white environment.
   const float alphas[] = {0.1f, 0.25f, 0.5f, 0.75f, 1.0f};
   const double losses[] = {0.028, 0.118, 0.300, 0.464, 0.590};
@@ -178,7 +110,7 @@ TEST_CASE("conductor: nothing below the horizon, and the smooth limit is a mirro
   Material smooth = material(kConductor, 0.5f);
   smooth.alpha = 1e-3f;
   const float expected = sample_mirror(material(kMirror, 0.5f), wo).weight.x;
-  CHECK(albedo<kConductor>(smooth, wo, 100000).mean() == doctest::Approx(expected).epsilon(1e-3));
+  CHECK(albedo(Seen<kConductor>{smooth}, wo, 100000).mean() == doctest::Approx(expected).epsilon(1e-3));
 }
 
 TEST_CASE("conductor: Fresnel by index where given, else by colour") {

@@ -106,7 +106,7 @@ TEST_CASE("vertex_pair: every vertex and purpose has a pair of its own, after th
   PathState p = start_path(frame, 1, 2, 3);
   std::vector<float> seen;
   for (int32 pair = 0; pair < PHALANX_PAIR_FIRST_VERTEX; ++pair)
-    seen.push_back(sample_pair(frame.sampler, static_cast<uint32>(p.scramble), p.sample, pair).x);
+    seen.push_back(sample_pair(frame, static_cast<uint32>(p.scramble), p.sample, pair).x);
   for (p.depth = 0; p.depth < 50; ++p.depth)
     for (int32 pair = 0; pair < PHALANX_PAIRS_PER_VERTEX; ++pair)
       seen.push_back(vertex_pair(frame, p, pair).x);
@@ -119,16 +119,16 @@ TEST_CASE("escaped and emitted radiance") {
   const SceneView view = scene.view();
   PathState p = falling(0);
   p.throughput = {0.5f, 1, 2};
-  CHECK(same(escaped_radiance(view, p), vec3(0.05f, 0.2f, 0.6f)));
+  CHECK(same(escaped_radiance<kPlain>(view, p), vec3(0.05f, 0.2f, 0.6f)));
   Material m = diffuse(0);
   m.emission = {1, 2, 3};
   Surface s = {};
   s.front = 1;
-  CHECK(same(emitted_radiance(m, s), m.emission));
+  CHECK(same(emitted_radiance<kPlain>(view, m, s), m.emission));
   s.front = 0;
-  CHECK(is_black(emitted_radiance(m, s)));
+  CHECK(is_black(emitted_radiance<kPlain>(view, m, s)));
   m.two_sided = 1;
-  CHECK(same(emitted_radiance(m, s), m.emission));
+  CHECK(same(emitted_radiance<kPlain>(view, m, s), m.emission));
 }
 
 TEST_CASE("emission_weight: 1 after the camera and delta scattering, else the heuristic") {
@@ -136,11 +136,11 @@ TEST_CASE("emission_weight: 1 after the camera and delta scattering, else the he
   const SceneView view = scene.view();
   PathState p = falling(0);
   p.direction = {0, 0, 1};
-  const Surface s = make_surface(view, kLamp, p.origin, p.direction);
-  CHECK(emission_weight(view, p, s) == 1.0f);
+  const Surface s = make_surface<kPlain>(view, kLamp, p.origin, p.direction);
+  CHECK(emission_weight<kPlain>(view, p, s) == 1.0f);
   p.pdf = 0.2f;
   const float light = light_pdf(scene.lights[0], p.origin, s.position, s.normal);
-  CHECK(emission_weight(view, p, s) == power_heuristic(0.2f, light));
+  CHECK(emission_weight<kPlain>(view, p, s) == power_heuristic(0.2f, light));
   CHECK(light == doctest::Approx(0.25f / 4));  // distance^2 / area
 }
 
@@ -159,14 +159,14 @@ TEST_CASE("path_vertex: light sampling and scattering together give rho E / pi (
     frame.sampler = sampler;
     Mean total, by_light, by_scattering;
     for (int i = 0; i < 1 << 16; ++i) {
-      const Vertex v = path_vertex<kDiffuse>(view, frame, falling(i), kFloor);
+      const Vertex v = path_vertex<kDiffuse, kPlain>(view, frame, falling(i), kFloor);
       const double direct = d(v.shadow.contribution.x);
       double met = 0;
       if (v.next.depth > 0) {
         const float t = (1 - v.next.origin.z) / v.next.direction.z;
         const Vec3 p = v.next.origin + v.next.direction * t;
         if (std::max(std::fabs(p.x), std::fabs(p.y)) <= 1)
-          met = d(path_vertex<kDiffuse>(view, frame, v.next, kLamp).emitted.x);
+          met = d(path_vertex<kDiffuse, kPlain>(view, frame, v.next, kLamp).emitted.x);
       }
       by_light.add(direct);
       by_scattering.add(met);
@@ -189,14 +189,14 @@ TEST_CASE("path_vertex: Russian roulette keeps the mean throughput (Q6)") {
   Mean mean;
   int ended = 0;
   for (int i = 0; i < 1 << 16; ++i) {
-    const Vertex v = path_vertex<kDiffuse>(view, frame, falling(i), kFloor);
+    const Vertex v = path_vertex<kDiffuse, kPlain>(view, frame, falling(i), kFloor);
     ended += v.next.depth < 0;
     mean.add(v.next.depth < 0 ? 0 : d(v.next.throughput.x));
   }
   CHECK(mean.p(0.3) > test::alpha());
   CHECK(std::abs(ended - 0.7 * 65536) < 100);
   frame.roulette_depth = 100;
-  const Vertex v = path_vertex<kDiffuse>(view, frame, falling(1), kFloor);
+  const Vertex v = path_vertex<kDiffuse, kPlain>(view, frame, falling(1), kFloor);
   CHECK(v.next.throughput.x == 0.3f);
   CHECK(v.next.depth == 1);
 }
@@ -209,10 +209,10 @@ TEST_CASE("path_vertex: black and too deep paths end after emission (Q7, M8)") {
   for (int i = 0; i < 20000; ++i) {
     const AimedRay ray = aimed_ray(scene, random, 1);
     const PathState p = path_along(ray, i);
-    const Vertex any = path_vertex_any(view, frame, p, ray.hit);
-    const Vertex black = path_vertex<kBlack>(view, frame, p, ray.hit);
+    const Vertex any = path_vertex_any<kPlain>(view, frame, p, ray.hit);
+    const Vertex black = path_vertex<kBlack, kPlain>(view, frame, p, ray.hit);
     frame.max_depth = p.depth;
-    const Vertex deep = path_vertex_any(view, frame, p, ray.hit);
+    const Vertex deep = path_vertex_any<kPlain>(view, frame, p, ray.hit);
     frame.max_depth = 8;
     for (const Vertex &v : {black, deep}) {
       REQUIRE(same(v.emitted, any.emitted));
@@ -221,7 +221,7 @@ TEST_CASE("path_vertex: black and too deep paths end after emission (Q7, M8)") {
     }
   }
   const ToyScene dark = lit_floor(diffuse(0));
-  CHECK(path_vertex<kDiffuse>(dark.view(), dark.frame(), falling(0), kFloor).next.depth < 0);
+  CHECK(path_vertex<kDiffuse, kPlain>(dark.view(), dark.frame(), falling(0), kFloor).next.depth < 0);
 }
 
 TEST_CASE("path_vertex: everything it returns is finite, and paths go on from where they were") {
@@ -233,8 +233,8 @@ TEST_CASE("path_vertex: everything it returns is finite, and paths go on from wh
   for (int i = 0; i < 100000; ++i) {
     const AimedRay ray = aimed_ray(scene, random, 1);
     const PathState p = path_along(ray, i);
-    const Vertex v = path_vertex_any(view, frame, p, ray.hit);
-    const Surface s = make_surface(view, ray.hit, ray.origin, ray.direction);
+    const Vertex v = path_vertex_any<kPlain>(view, frame, p, ray.hit);
+    const Surface s = make_surface<kPlain>(view, ray.hit, ray.origin, ray.direction);
     const int kind = scene.materials[static_cast<std::size_t>(s.material)].kind;
     REQUIRE(all_finite(v.emitted));
     REQUIRE(all_finite(v.shadow.contribution));
@@ -275,18 +275,18 @@ TEST_CASE("path_vertex_any: picks the kind of the surface's material") {
     const auto by_kind = [&] {
       switch (scene.materials[static_cast<std::size_t>(g.material)].kind) {
         case kDiffuse:
-          return path_vertex<kDiffuse>(view, frame, p, ray.hit);
+          return path_vertex<kDiffuse, kPlain>(view, frame, p, ray.hit);
         case kMirror:
-          return path_vertex<kMirror>(view, frame, p, ray.hit);
+          return path_vertex<kMirror, kPlain>(view, frame, p, ray.hit);
         case kDielectric:
-          return path_vertex<kDielectric>(view, frame, p, ray.hit);
+          return path_vertex<kDielectric, kPlain>(view, frame, p, ray.hit);
         case kConductor:
-          return path_vertex<kConductor>(view, frame, p, ray.hit);
+          return path_vertex<kConductor, kPlain>(view, frame, p, ray.hit);
         default:
-          return path_vertex<kBlack>(view, frame, p, ray.hit);
+          return path_vertex<kBlack, kPlain>(view, frame, p, ray.hit);
       }
     };
-    const Vertex a = path_vertex_any(view, frame, p, ray.hit), b = by_kind();
+    const Vertex a = path_vertex_any<kPlain>(view, frame, p, ray.hit), b = by_kind();
     REQUIRE(same(a.emitted, b.emitted));
     REQUIRE(same(a.shadow.contribution, b.shadow.contribution));
     REQUIRE(same(a.next, b.next));

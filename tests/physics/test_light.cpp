@@ -42,11 +42,13 @@ bool meets(const Light &light, Vec3 origin, Vec3 direction, Vec3 &position, Vec3
 
 /// Irradiance at `origin` on a surface facing `normal`, by sampling the lights with Sobol points.
 double irradiance(const SceneView &scene, Vec3 origin, Vec3 normal, int log2_samples) {
+  FrameView frame = {};
+  frame.sampler = kSobolSampler;
   double sum = 0;
   for (int i = 0; i < 1 << log2_samples; ++i) {
     const LightSample s =
-        sample_light(scene, origin, sample_pair(kSobolSampler, 7, i, PHALANX_PAIR_LIGHT_CHOICE),
-                     sample_pair(kSobolSampler, 7, i, PHALANX_PAIR_LIGHT));
+        sample_light(scene, origin, sample_pair(frame, 7, i, PHALANX_PAIR_LIGHT_CHOICE),
+                     sample_pair(frame, 7, i, PHALANX_PAIR_LIGHT));
     const float cosine = dot(s.direction, normal);
     if (s.pdf > 0 && cosine > 0)
       sum += static_cast<double>(s.radiance.x) * static_cast<double>(cosine) /

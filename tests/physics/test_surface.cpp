@@ -124,7 +124,7 @@ TEST_CASE("make_surface: the point is on the ray and both normals face the viewe
   int fronts = 0;
   for (int i = 0; i < 200000; ++i) {
     const AimedRay ray = aimed_ray(scene, random, 1);
-    const Surface s = make_surface(view, ray.hit, ray.origin, ray.direction);
+    const Surface s = make_surface<kPlain>(view, ray.hit, ray.origin, ray.direction);
     REQUIRE(all_finite(s.position));
     REQUIRE(std::fabs(length(s.normal) - 1) < 1e-6f);
     REQUIRE(std::fabs(length(s.shading.n) - 1) < 1e-6f);
@@ -159,7 +159,7 @@ TEST_CASE("make_surface: front is the side of the shape's normal, in mirrored in
     const auto front = [&](int32 instance, float from, int32 far_root) {
       hit.instance = instance;
       hit.far_root = far_root;
-      return make_surface(view, hit, vec3(0.1f, 0.2f, from), vec3(0, 0, from > 0 ? -1.0f : 1.0f))
+      return make_surface<kPlain>(view, hit, vec3(0.1f, 0.2f, from), vec3(0, 0, from > 0 ? -1.0f : 1.0f))
           .front;
     };
     CAPTURE(shape);
@@ -186,8 +186,8 @@ TEST_CASE("make_surface: instances equal what their transform makes of the shape
     local.instance = -1;
     const Vec3 o = transform_point(instance.to_object, ray.origin);
     const Vec3 w = normalize(transform_vector(instance.to_object, ray.direction));
-    const Surface in_world = make_surface(view, ray.hit, ray.origin, ray.direction);
-    const Surface in_group = make_surface(view, local, o, w);
+    const Surface in_world = make_surface<kPlain>(view, ray.hit, ray.origin, ray.direction);
+    const Surface in_group = make_surface<kPlain>(view, local, o, w);
     if (std::fabs(dot(in_world.normal, ray.direction)) < 0.1f) continue;
     const Vec3 p = transform_point(instance.to_world, in_group.position);
     const Vec3 n = normalize(transform_transposed(instance.to_object, in_group.normal));
@@ -210,7 +210,7 @@ TEST_CASE("spawn_origin: rays never meet the surface they leave, at any scale (S
     double worst = 0;
     for (int i = 0; i < n; ++i) {
       const AimedRay ray = aimed_ray(scene, random, scale);
-      const Surface s = make_surface(view, ray.hit, ray.origin, ray.direction);
+      const Surface s = make_surface<kPlain>(view, ray.hit, ray.origin, ray.direction);
       const Vec3 w = random.direction();
       self_hits += meets_itself(scene, ray.hit, spawn_origin(s, w), w);
       const Geometry &g = scene.geometries[static_cast<std::size_t>(ray.hit.geometry)];
@@ -252,7 +252,7 @@ TEST_CASE("spawn_origin: in a box of size S the offset is at most 4e-6 S (S1)") 
       Vec3 origin = random.point(s);
       Vec3 direction = normalize(target - origin);
       if (sphere && dot(target - scene.spheres[0].center, direction) > 0) continue;
-      const Surface surface = make_surface(view, hit, origin, direction);
+      const Surface surface = make_surface<kPlain>(view, hit, origin, direction);
       const Vec3 w = random.direction();
       worst = std::max(worst, d(surface.offset) / d(s));
       self_hits += meets_itself(scene, hit, spawn_origin(surface, w), w);
@@ -285,7 +285,7 @@ TEST_CASE("make_surface: a shading normal that turns away gives way to the geome
     for (std::size_t v = 0; v < 3; ++v)
       scene.normals[3 * v] = n.x, scene.normals[3 * v + 1] = n.y, scene.normals[3 * v + 2] = n.z;
     for (const float side : {1.0f, -1.0f}) {
-      const Surface s = make_surface(scene.view(), hit, vec3(0.2f, 0.2f, side), vec3(0, 0, -side));
+      const Surface s = make_surface<kPlain>(scene.view(), hit, vec3(0.2f, 0.2f, side), vec3(0, 0, -side));
       CHECK(all_finite(s.shading.n));
       CHECK(s.normal.z == side);
       CHECK(s.shading.n.z * side > 0.0f);
@@ -301,7 +301,7 @@ TEST_CASE("make_surface: shading normals are interpolated") {
   scene.triangles[0] = {0, 1, 2};
   scene.geometries[0].has_normals = 1;
   const Vec3 n =
-      make_surface(scene.view(), {0, 0, -1, 0}, vec3(0.5f, 0.25f, 1), vec3(0, 0, -1)).shading.n;
+      make_surface<kPlain>(scene.view(), {0, 0, -1, 0}, vec3(0.5f, 0.25f, 1), vec3(0, 0, -1)).shading.n;
   const Vec3 expected = normalize(vec3(0.3f, 0, 0.9f));
   CHECK(length(n - expected) < 1e-6f);
 }
@@ -310,13 +310,13 @@ TEST_CASE("first_hit: albedo, normal and depth of what the camera sees") {
   ToyScene scene = random_scene(11, 1);
   scene.quads[0] = {{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}};
   const Hit nothing = {-1, 0, -1, 0};
-  const FirstHit sky = first_hit(scene.view(), nothing, vec3(0, 0, 4), vec3(0, 0, -1));
+  const FirstHit sky = first_hit<kPlain>(scene.view(), nothing, vec3(0, 0, 4), vec3(0, 0, -1));
   CHECK((is_black(sky.albedo) && is_black(sky.normal) && sky.depth == 0.0f));
   const int32 first_quads = 8;
   for (int32 material = 0; material < 8; ++material) {
     scene.geometries[first_quads].material = material;
     const FirstHit f =
-        first_hit(scene.view(), {first_quads, 0, -1, 0}, vec3(0, 0, 4), vec3(0, 0, -1));
+        first_hit<kPlain>(scene.view(), {first_quads, 0, -1, 0}, vec3(0, 0, 4), vec3(0, 0, -1));
     const Material &m = scene.materials[static_cast<std::size_t>(material)];
     CHECK(f.depth == doctest::Approx(4));
     CHECK(f.normal.z == 1.0f);

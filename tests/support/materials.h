@@ -1,11 +1,12 @@
 // Materials for tests.
 #pragma once
 #include "../../kernels/scene_view.h"
+#include "scene/build_materials.h"
 
 namespace phalanx::test {
 
 inline Material material(MaterialKind kind, float reflectance) {
-  Material m = {};
+  Material m = blank_material();
   m.kind = kind;
   m.reflectance = {reflectance, reflectance, reflectance};
   m.alpha = 1;

@@ -1,8 +1,8 @@
 // Coordinates of the hemisphere of normals in which GGX of any roughness looks alike.
 //
-// A normal (x, y, z) of roughness alpha is stretched to (x, y, alpha z) / length, which makes the
-// distribution of normals that of a hemisphere (alpha = 1). Grids over (cosine, azimuth) of stretched
-// normals resolve the sharpest lobes.
+// A normal (x, y, z) is stretched to (x / alpha_x, y / alpha_y, z) / length, which makes the distribution
+// of normals that of a hemisphere (alpha = 1). Grids over (cosine, azimuth) of stretched normals resolve
+// the sharpest lobes.
 #pragma once
 #include "../../kernels/physics/vec.h"
 #include "statistics.h"
@@ -10,7 +10,8 @@
 namespace phalanx::test {
 
 struct NormalSpace {
-  double alpha;
+  double alpha;            // along x
+  double alpha_y = alpha;
 
   struct Place {
     double cosine, phi;  // of the stretched normal
@@ -19,7 +20,7 @@ struct NormalSpace {
     return place(static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z));
   }
   Place place(double x, double y, double z) const {
-    return {alpha * z / std::hypot(x, y, alpha * z), azimuth(x, y)};
+    return {z / std::hypot(x / alpha, y / alpha_y, z), azimuth(x / alpha, y / alpha_y)};
   }
   /// Of the half vector of two unit directions. Their rounded lengths are corrected first: at
   /// grazing angles they would tilt it.
@@ -38,12 +39,13 @@ struct NormalSpace {
   };
   Normal normal(double cosine, double phi) const {
     const double sine = std::sqrt(1 - cosine * cosine);
-    const double size = std::hypot(alpha * sine, cosine), s = alpha * sine / size;
+    const double x = alpha * sine * std::cos(phi), y = alpha_y * sine * std::sin(phi);
+    const double size = std::hypot(x, y, cosine);
     Normal n;
     n.z = cosine / size;
-    n.direction = {static_cast<float>(s * std::cos(phi)), static_cast<float>(s * std::sin(phi)),
+    n.direction = {static_cast<float>(x / size), static_cast<float>(y / size),
                    static_cast<float>(n.z)};
-    n.jacobian = alpha * alpha / (size * size * size);
+    n.jacobian = alpha * alpha_y / (size * size * size);
     return n;
   }
 };

@@ -16,6 +16,7 @@
 #define TWIN_LIST(X)              \
   X(lang, 3, 0, 8)                \
   X(sincos, 1, 0, 2)              \
+  X(transcendental, 2, 0, 6)      \
   X(hashes, 0, 3, 5)              \
   X(sample_pair, 0, 4, 3)         \
   X(warps, 3, 0, 15)              \
@@ -95,6 +96,17 @@ TWIN_PLAIN(sincos) {
   TwinOut r;
   r.f[0] = sc.sine;
   r.f[1] = sc.cosine;
+  return r;
+}
+
+TWIN_PLAIN(transcendental) {
+  TwinOut r;
+  r.f[0] = exp_of(F(0));
+  r.f[1] = log_of(abs_of(F(0)));
+  r.f[2] = pow_of(abs_of(F(0)), F(1));
+  r.f[3] = atan2_turns(F(0), F(1));
+  r.f[4] = acos_of(F(0));
+  r.f[5] = asin_of(F(1));
   return r;
 }
 
@@ -306,7 +318,7 @@ PHYS Hit twin_hit(TwinIn in_) {
 }
 
 PHYS TwinOut twin_surface(const UNI SceneView &scene, const UNI FrameView &, TwinIn in_) {
-  const Surface s = make_surface(scene, twin_hit(in_), F3(0), F3(3));
+  const Surface s = make_surface<kPlain>(scene, twin_hit(in_), F3(0), F3(3));
   TwinOut r;
   PUT3(0, s.position)
   PUT3(3, s.normal)
@@ -322,7 +334,7 @@ PHYS TwinOut twin_surface(const UNI SceneView &scene, const UNI FrameView &, Twi
 PHYS TwinOut twin_first_hit(const UNI SceneView &scene, const UNI FrameView &, TwinIn in_) {
   Hit hit = twin_hit(in_);
   if (F(0) > 2.5f) hit.geometry = -1;  // some rays leave the scene
-  const FirstHit f = first_hit(scene, hit, F3(0), F3(3));
+  const FirstHit f = first_hit<kPlain>(scene, hit, F3(0), F3(3));
   TwinOut r;
   PUT3(0, f.albedo)
   PUT3(3, f.normal)
@@ -370,12 +382,12 @@ PHYS TwinOut twin_emission(const UNI SceneView &scene, const UNI FrameView &, Tw
   PathState p = twin_state(in_);
   p.pdf = F(0) > 0.0f ? 0.7f : 0.0f;
   p.throughput = F3(0);
-  const Surface s = make_surface(scene, hit, F3(0), F3(3));
+  const Surface s = make_surface<kPlain>(scene, hit, F3(0), F3(3));
   TwinOut r;
-  PUT3(0, escaped_radiance(scene, p))
-  PUT3(3, emitted_radiance(fetch(scene.materials, s.material), s))
+  PUT3(0, escaped_radiance<kPlain>(scene, p))
+  PUT3(3, emitted_radiance<kPlain>(scene, fetch(scene.materials, s.material), s))
   r.f[6] = 0.0f;
-  if (s.light >= 0) r.f[6] = emission_weight(scene, p, s);
+  if (s.light >= 0) r.f[6] = emission_weight<kPlain>(scene, p, s);
   r.f[7] = offset_bound(abs3(F3(0)), s.normal);
   return r;
 }
@@ -403,7 +415,7 @@ PHYS TwinOut twin_vertex(Vertex v) {
 
 #define TWIN_VERTEX(name, kind)                                                                  \
   PHYS TwinOut twin_##name(const UNI SceneView &scene, const UNI FrameView &frame, TwinIn in_) { \
-    return twin_vertex(path_vertex<kind>(scene, frame, twin_state(in_), twin_hit(in_)));         \
+    return twin_vertex(path_vertex<kind, kPlain>(scene, frame, twin_state(in_), twin_hit(in_)));         \
   }
 TWIN_VERTEX(vertex_diffuse, kDiffuse)
 TWIN_VERTEX(vertex_mirror, kMirror)

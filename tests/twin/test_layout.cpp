@@ -12,7 +12,8 @@
 
 using namespace phalanx;
 
-extern "C" int32 layout_sse4(int32 *values), layout_avx2(int32 *values),
+// Weak: null for instruction sets that this build leaves out.
+extern "C" __attribute__((weak)) int32 layout_sse4(int32 *values), layout_avx2(int32 *values),
     layout_avx512skx(int32 *values);
 
 namespace {
@@ -26,7 +27,7 @@ struct Number {
 const std::vector<Number> kHost = {LAYOUT_LIST(OFFSET_OF, SIZE_OF)};
 
 void check_layout(const std::string &isa, int32 (*layout)(int32 *)) {
-  if (!isa_supported(isa)) return;
+  if (layout == nullptr || !isa_supported(isa)) return;
   std::vector<int32> values(LAYOUT_MAX);
   REQUIRE(kHost.size() <= values.size());
   REQUIRE(static_cast<std::size_t>(layout(values.data())) == kHost.size());
