@@ -8,7 +8,7 @@ static inline void aov(const uniform SceneView &scene, const uniform TileView &t
   foreach (i = 0 ... count) {
     const Gang g = make_gang(slots, i);
     const FirstHit f =
-        first_hit<D>(scene, get_hit(scene, wave, g),
+        first_hit<D>(scene, get_hit(scene, tile, wave, g),
                      get3(wave.origin_x, wave.origin_y, wave.origin_z, g),
                      get3(wave.direction_x, wave.direction_y, wave.direction_z, g));
     put_first_hit(tile, get(wave.block_index, g), f);

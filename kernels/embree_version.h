@@ -89,6 +89,15 @@ static inline void phalanx_collect(void *accel, RTCRayHit *ray, PhalanxQueryCont
   context->filter = filter;
   rtcIntersect1(static_cast<RTCScene>(accel), context, ray);
 }
+// A query of a scene from the callback of a query of another one, with that one's context.
+static inline void phalanx_intersect_inner(RTCScene scene, PhalanxQueryContext *context,
+                                           RTCRayHit *ray) {
+  rtcIntersect1(scene, context, ray);
+}
+static inline void phalanx_occluded_inner(RTCScene scene, PhalanxQueryContext *context,
+                                          RTCRay *ray) {
+  rtcOccluded1(scene, context, ray);
+}
 
 #else
 
@@ -97,6 +106,7 @@ using PhalanxQueryContext = RTCRayQueryContext;
 
 // While a thread collects, this is its context.
 inline thread_local const RTCRayQueryContext *phalanx_collecting = nullptr;
+inline thread_local RTCFilterFunctionN phalanx_collecting_filter = nullptr;
 
 static inline bool phalanx_collects(const PhalanxQueryContext *context) {
   return context != nullptr && context == phalanx_collecting;
@@ -111,8 +121,29 @@ static inline void phalanx_collect(void *accel, RTCRayHit *ray, PhalanxQueryCont
   arguments.flags = static_cast<RTCRayQueryFlags>(RTC_RAY_QUERY_FLAG_INCOHERENT |
                                                   RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
   phalanx_collecting = context;
+  phalanx_collecting_filter = filter;
   rtcIntersect1(static_cast<RTCScene>(accel), ray, &arguments);
   phalanx_collecting = nullptr;
+}
+// A query of a scene from the callback of a query of another one, with that one's context.
+static inline void phalanx_intersect_inner(RTCScene scene, PhalanxQueryContext *context,
+                                           RTCRayHit *ray) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = context;
+  if (phalanx_collects(context)) {
+    arguments.filter = phalanx_collecting_filter;
+    arguments.flags = static_cast<RTCRayQueryFlags>(RTC_RAY_QUERY_FLAG_INCOHERENT |
+                                                    RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+  }
+  rtcIntersect1(scene, ray, &arguments);
+}
+static inline void phalanx_occluded_inner(RTCScene scene, PhalanxQueryContext *context,
+                                          RTCRay *ray) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = context;
+  rtcOccluded1(scene, ray, &arguments);
 }
 
 #endif

@@ -2,15 +2,15 @@
 #include "gang.isph"
 #include "trace.isph"
 
-export void KERNEL(intersect)(const uniform SceneView &scene, const uniform WaveView &wave,
-                              const uniform int32 slots[], uniform int32 count,
-                              uniform int32 coherent) {
+export void KERNEL(intersect)(const uniform SceneView &scene, const uniform TileView &tile,
+                              const uniform WaveView &wave, const uniform int32 slots[],
+                              uniform int32 count, uniform int32 coherent) {
   foreach (i = 0 ... count) {
     const Gang g = make_gang(slots, i);
     const Hit hit =
         trace_closest(scene, get3(wave.origin_x, wave.origin_y, wave.origin_z, g),
                       get3(wave.direction_x, wave.direction_y, wave.direction_z, g),
-                      coherent != 0);
+                      get_time(scene, tile, wave, g), coherent != 0);
     put(wave.hit_geometry, g, hit.geometry);
     put(wave.hit_primitive, g, hit.primitive);
     int32 kind = kEscaped;
@@ -21,5 +21,6 @@ export void KERNEL(intersect)(const uniform SceneView &scene, const uniform Wave
     put(wave.hit_kind, g, kind);
     if (scene.num_spheres > 0) put(wave.hit_far_root, g, hit.far_root);
     if (scene.num_instances > 0) put(wave.hit_instance, g, hit.instance);
+    if (scene.num_curve_segments > 0) put(wave.hit_u, g, hit.u);
   }
 }

@@ -12,6 +12,7 @@ static inline void megakernel(const uniform SceneView &scene, const uniform Fram
     if (block_index < tile.num_samples) {
       const TileSample at = tile_sample(tile, block_index);
       PathState p = start_path(frame, at.x, at.y, at.sample);
+      const float time = path_time(scene, p.scramble, p.sample);
       Vec3 radiance = vec3(0.0f, 0.0f, 0.0f);
       uniform bool camera = true;
       while (p.depth >= 0) {
@@ -19,8 +20,8 @@ static inline void megakernel(const uniform SceneView &scene, const uniform Fram
         counts[1] += programCount;
         if (!camera) counts[2] += popcnt(lanemask());
         const Hit hit =
-            resolve_hit<D>(scene, trace_closest(scene, p.origin, p.direction, camera), p.origin,
-                           p.direction, p.scramble, p.sample, p.depth);
+            resolve_hit<D>(scene, frame, trace_closest(scene, p.origin, p.direction, time, camera),
+                           p.origin, p.direction, p.scramble, p.sample, p.depth);
         if (camera && tile.aov != NULL) {
           const FirstHit f = first_hit<D>(scene, hit, p.origin, p.direction);
           put_first_hit(tile, block_index, f);
@@ -37,7 +38,7 @@ static inline void megakernel(const uniform SceneView &scene, const uniform Fram
           if (!is_black(v.shadow.contribution)) {
             counts[3] += popcnt(lanemask());
             if (!trace_occluded(scene, v.shadow.origin, v.shadow.direction, v.shadow.distance,
-                                camera))
+                                time, camera))
               radiance = radiance + v.shadow.contribution;
           }
           p = v.next;

@@ -24,6 +24,7 @@ struct WaveView {
   UNI int32 *UNI hit_instance;     // only with instances
   UNI int32 *UNI hit_far_root;     // only with spheres
   UNI int32 *UNI hit_material;     // only with blends: Hit::material; written by resolve
+  UNI float *UNI hit_u;            // only with curves: Hit::u
   // Shadow rays, in the slot of their path; only with lights. Written by shade.
   UNI float *UNI shadow_origin_x, *UNI shadow_origin_y, *UNI shadow_origin_z;
   UNI float *UNI shadow_direction_x, *UNI shadow_direction_y, *UNI shadow_direction_z;

@@ -49,6 +49,7 @@ enum MaterialKind {
 #define kEscaped kNumMaterialKinds
 /// Two materials: one of them is chosen before anything else happens (physics/resolve.h).
 #define kBlend (kNumMaterialKinds + 1)
+#define PHALANX_MAX_BLEND_DEPTH 16  // blends of blends; the scene's reader refuses more
 
 /// What code a kernel holds. kRich adds textures, normal maps, vertex colours, every light but plain area
 /// lights, blends; a scene without them runs kernels in which none of that exists.
@@ -58,9 +59,10 @@ enum Detail { kPlain = 0, kRich = 1 };
 struct Material {
   int32 kind;              // MaterialKind, or kBlend
   Vec3 reflectance;        // diffuse: albedo. mirror, conductor: reflectance at normal incidence (F0)
+                           // glossy_conductor with has_ior: average reflectance over the hemisphere
   Vec3 eta, k;             // conductor: complex index of refraction, used when has_ior is not 0
   int32 has_ior;
-  float alpha;             // GGX roughness, in [1e-3, 1]
+  float alpha;             // GGX roughness, in [1e-3, 1]; 0: smooth (rough_dielectric, coated)
   float ior;               // dielectric: inside over outside, > 0
   Vec3 emission;           // radiance leaving the surface, W sr^-1 m^-2
   int32 two_sided;         // emission: 1 emits on both sides, 0 on the side of the geometric normal
@@ -127,7 +129,7 @@ struct Geometry {
   int32 shape;           // ShapeKind
   int32 material;        // index into materials
   int32 kind;            // MaterialKind of that material, or kBlend
-  int32 first;           // index of primitive 0 in triangles / quads / spheres / disks
+  int32 first;           // index of primitive 0 in triangles / quads / spheres / disks / curve_segments
   int32 first_light;     // light of primitive 0, the others follow; -1 when it does not emit
   int32 normal_offset;   // meshes: normal of vertex v is vertex_normals[v + normal_offset]
   int32 has_normals;     // meshes: 1 if it has shading normals
@@ -162,6 +164,13 @@ struct Instance {
   int32 first_geometry;  // record of geometry 0 of the instanced group
   Affine to_world;
   Affine to_object;      // inverse of to_world
+};
+
+/// How an instance moves while the shutter is open, if it does: from Instance::to_world at time 0 in a
+/// straight line, entry by entry, to to_world_end at time 1.
+struct Motion {
+  int32 moves;
+  Affine to_world_end;
 };
 
 // ---- lights -----------------------------------------------------------------------------------
@@ -250,6 +259,14 @@ struct SceneView {
   const UNI float *UNI tables;            // directional albedos, light profiles
   const UNI LightProfile *UNI profiles;
   const UNI LightNode *UNI light_nodes;   // root first; num_light_nodes is 0 without a tree
+  // Strands: points [4 a point] x, y, z, radius; where each lies on its strand, 0 at the root, 1 at the
+  // tip; of each segment the first of its two points, which are neighbours.
+  const UNI float *UNI curve_points;
+  const UNI float *UNI curve_along;
+  const UNI int32 *UNI curve_segments;    // [num_curve_segments]
+  int32 num_curve_segments;
+  const UNI Motion *UNI motions;          // [num_instances] if has_motion
+  int32 has_motion;
   int32 num_textures, num_light_nodes;
   int32 num_infinite_lights;              // the last lights of the list
   float infinite_share;                   // with a tree: probability of choosing a light at infinity

@@ -10,7 +10,7 @@ static inline uniform int32 shade_view(const uniform SceneView &scene,
   foreach (i = 0 ... count) {
     const Gang g = make_gang(slots, i);
     const PathState p = get_path(wave, tile, g);
-    const Vertex v = view_vertex(scene, frame, p, get_hit(scene, wave, g));
+    const Vertex v = view_vertex(scene, frame, p, get_hit(scene, tile, wave, g));
     num_shadow =
         put_vertex(tile, wave, g, v, frame.integrator == kAmbientOcclusion, num_shadow);
   }

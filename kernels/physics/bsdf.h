@@ -12,6 +12,7 @@
 #include "bsdf_hair.h"
 #include "bsdf_mirror.h"
 #include "bsdf_phong.h"
+#include "bsdf_principled.h"
 #include "bsdf_rough_dielectric.h"
 #include "bsdf_rough_diffuse.h"
 #include "bsdf_thin_dielectric.h"
@@ -54,6 +55,7 @@ PHYS BsdfSample sample_bsdf(const UNI SceneView &scene, Material m, int32 front,
   if (Kind == kCoated) return sample_coated(scene, m, wo, u, u_lobe);
   if (Kind == kPhong) return sample_phong(m, wo, u);
   if (Kind == kBlinnPhong) return sample_blinn_phong(m, wo, u);
+  if (Kind == kPrincipled) return sample_principled(scene, m, front, wo, u, u_lobe);
   if (Kind == kHair) return sample_hair(m, wo, u, u_lobe);
   return no_sample();
 }
@@ -69,6 +71,7 @@ PHYS BsdfValue eval_bsdf(const UNI SceneView &scene, Material m, int32 front, Ve
   if (Kind == kCoated) return eval_coated(scene, m, wo, wi);
   if (Kind == kPhong) return eval_phong(m, wo, wi);
   if (Kind == kBlinnPhong) return eval_blinn_phong(m, wo, wi);
+  if (Kind == kPrincipled) return eval_principled(scene, m, front, wo, wi);
   if (Kind == kHair) return eval_hair(m, wo, wi);
   return no_value();
 }

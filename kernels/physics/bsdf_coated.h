@@ -43,12 +43,15 @@ PHYS CoatedLobes coated_lobes(const UNI SceneView &scene, Material m, Vec3 wo) {
   const float leaves = entered_average * inv_eta2;
   const Vec3 base = vec3(coated_base(m.reflectance.x, inv_eta2, leaves),
                          coated_base(m.reflectance.y, inv_eta2, leaves),
-                         coated_base(m.reflectance.z, inv_eta2, leaves)) * entered;
+                         coated_base(m.reflectance.z, inv_eta2, leaves)) *
+                    entered;
   const float coat_albedo = max_component(m.specular) * (1.0f - entered);
   const float base_albedo = max_component(base) * entered_average;
   CoatedLobes lobes;
   lobes.base = base * PHALANX_INV_PI;
-  lobes.probability = coat_albedo > 0.0f ? coat_albedo / (coat_albedo + base_albedo) : 0.0f;
+  // A base whose share rounds to 0 is sampled nevertheless.
+  const float share = coat_albedo > 0.0f ? coat_albedo / (coat_albedo + base_albedo) : 0.0f;
+  lobes.probability = min_of(share, 0.999999f);
   return lobes;
 }
 

@@ -24,8 +24,7 @@ PHYS float glossy_row(Vec2 alpha, Vec3 w) {
 
 /// Colour of what bounces more than once, one channel.
 PHYS float multiple_fresnel(float average_fresnel, float average) {
-  return average_fresnel * average_fresnel * average /
-         (1.0f - average_fresnel * (1.0f - average));
+  return average_fresnel * average_fresnel * average / (1.0f - average_fresnel * (1.0f - average));
 }
 
 /// Average of Fresnel's reflectance over the hemisphere: Schlick's in closed form; where eta and k are

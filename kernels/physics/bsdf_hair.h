@@ -145,7 +145,8 @@ PHYS float hair_longitudinal(float sin_i, float cos_i, float sin_o, float cos_o,
   const float sum = sin_i + sin_o;
   const float off = cos_i - cos_o;
   const float distance = 0.5f * (sum * sum + off * off);  // 1 - cos of the angle to the lobe's axis
-  return scaled_bessel_i0(cos_i * cos_o * x) * exp_of(-distance * x) * (x / one_minus_exp(2.0f * x));
+  return scaled_bessel_i0(cos_i * cos_o * x) * exp_of(-distance * x) *
+         (x / one_minus_exp(2.0f * x));
 }
 
 /// Logistic distribution of `turns`, wrapped to [-0.5, 0.5] and cut there; per radian.
@@ -184,10 +185,12 @@ PHYS BsdfValue hair_value(HairLobes l, float sin_i, float cos_i, float turns) {
 
 /// sin(theta_i) and cos(theta_i) drawn from hair_longitudinal: directions on the sphere around the lobe's
 /// axis with density exp(cos / variance) (d'Eon et al. 2013).
-PHYS Vec2 sample_hair_longitudinal(float sin_o, float cos_o, float variance, float u, float u_turn) {
+PHYS Vec2 sample_hair_longitudinal(float sin_o, float cos_o, float variance, float u,
+                                   float u_turn) {
   const float left = exp_of(-2.0f / variance);
   const float below = 1.0f - u;  // in (0, 1]
-  const float w = min_of(-variance * log_of(below + u * left), 2.0f);  // 1 - cos of the angle to the axis
+  const float w =
+      min_of(-variance * log_of(below + u * left), 2.0f);  // 1 - cos of the angle to the axis
   const float c = 1.0f - w;
   const float s = safe_sqrt(w * (2.0f - w));
   const SinCos turn = sincos_turns(u_turn);

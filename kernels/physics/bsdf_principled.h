@@ -19,7 +19,7 @@
 
 PHALANX_BEGIN
 
-#define PHALANX_COAT_F0 0.04f           // index 1.5
+#define PHALANX_COAT_F0 0.04f  // index 1.5
 #define PHALANX_LEAST_SHEEN_ALPHA 0.01f
 
 PHYS float principled_alpha(float alpha) { return clamp_to(alpha, PHALANX_LEAST_ALPHA, 1.0f); }
@@ -68,14 +68,16 @@ PHYS TopLayers no_top_layers() {
   return t;
 }
 
-PHYS float sheen_alpha(Material m) { return clamp_to(m.sheen_alpha, PHALANX_LEAST_SHEEN_ALPHA, 1.0f); }
+PHYS float sheen_alpha(Material m) {
+  return clamp_to(m.sheen_alpha, PHALANX_LEAST_SHEEN_ALPHA, 1.0f);
+}
 
 PHYS TopLayers top_layers(const UNI SceneView &scene, Material m, float mu) {
   TopLayers t = no_top_layers();
   if (m.clearcoat > 0.0f) {
     const float alpha = principled_alpha(m.clearcoat_alpha);
-    t.coat = m.clearcoat *
-             albedo_of(schlick_albedo(scene, m.table, alpha, mu), PHALANX_COAT_F0, 1.0f);
+    t.coat =
+        m.clearcoat * albedo_of(schlick_albedo(scene, m.table, alpha, mu), PHALANX_COAT_F0, 1.0f);
   }
   if (!is_black(m.sheen)) {
     const float e = directional_albedo(scene, m.table + 2 * PHALANX_ALBEDO_FLOATS,
@@ -107,8 +109,8 @@ PHYS float sheen_value(float alpha, float cos_o, float cos_i, Vec3 h) {
 struct Specular {
   Vec3 f0;
   float f90;
-  float eta;       // of the glass: index on the far side over the near one
-  float f0_bare;   // of the index alone
+  float eta;      // of the glass: index on the far side over the near one
+  float f0_bare;  // of the index alone
 };
 
 PHYS Specular principled_specular(Material m, int32 front) {
@@ -117,7 +119,8 @@ PHYS Specular principled_specular(Material m, int32 front) {
   s.f0_bare = r * r;
   s.f90 = m.specular_level;
   s.f0 = vec3(min_of(s.f0_bare * m.specular.x, 1.0f), min_of(s.f0_bare * m.specular.y, 1.0f),
-              min_of(s.f0_bare * m.specular.z, 1.0f)) * m.specular_level;
+              min_of(s.f0_bare * m.specular.z, 1.0f)) *
+         m.specular_level;
   s.eta = relative_index(m, front);
   return s;
 }
@@ -142,9 +145,10 @@ PHYS FacetScattering facet_scattering(Material m, Specular s, float cos_i) {
   const float t = clamp_to((r.reflectance - s.f0_bare) / (1.0f - s.f0_bare), 0.0f, 1.0f);
   const Vec3 glass = fresnel_between(s.f0, s.f90, t);
   FacetScattering f;
-  f.reflected = fresnel_between(m.reflectance, 1.0f, x5) * m.metallic +
-                (fresnel_between(s.f0, s.f90, x5) * (1.0f - m.transmission) + glass * m.transmission) *
-                    dielectric;
+  f.reflected =
+      fresnel_between(m.reflectance, 1.0f, x5) * m.metallic +
+      (fresnel_between(s.f0, s.f90, x5) * (1.0f - m.transmission) + glass * m.transmission) *
+          dielectric;
   f.transmitted = m.reflectance * (vec3(1.0f, 1.0f, 1.0f) - glass) * (m.transmission * dielectric);
   f.cos_t = r.cos_t;
   if (!(r.cos_t > 0.0f)) f.transmitted = vec3(0.0f, 0.0f, 0.0f);
@@ -159,10 +163,12 @@ PHYS FacetScattering facet_scattering(Material m, Specular s, float cos_i) {
 struct PrincipledLobes {
   Specular specular;
   TopLayers top;
-  int32 is_outer;              // 1: coat and sheen are on wo's side
-  float specular_f0;           // largest component of specular.f0
-  Vec3 diffuse, multiple;      // times 1 - E(wi): f of the diffuse base, and of the metal's multiple scattering
-  float p_coat, p_sheen, p_broad, p_facets;  // probabilities of sampling, sum 1; broad: diffuse and multiple
+  int32 is_outer;     // 1: coat and sheen are on wo's side
+  float specular_f0;  // largest component of specular.f0
+  Vec3 diffuse,
+      multiple;  // times 1 - E(wi): f of the diffuse base, and of the metal's multiple scattering
+  float p_coat, p_sheen, p_broad,
+      p_facets;  // probabilities of sampling, sum 1; broad: diffuse and multiple
 };
 
 /// Colour of light that metal microfacets scatter more than once (Hill 2018), one channel of F0.
@@ -171,7 +177,8 @@ PHYS float multiple_schlick(float f0, float average) {
   return f * f * average / (1.0f - f * (1.0f - average));
 }
 
-PHYS PrincipledLobes principled_lobes(const UNI SceneView &scene, Material m, int32 front, Vec3 wo) {
+PHYS PrincipledLobes principled_lobes(const UNI SceneView &scene, Material m, int32 front,
+                                      Vec3 wo) {
   const float alpha = principled_alpha(m.alpha);
   const float dielectric = 1.0f - m.metallic;
   const float plastic = dielectric * (1.0f - m.transmission);
@@ -191,7 +198,8 @@ PHYS PrincipledLobes principled_lobes(const UNI SceneView &scene, Material m, in
   const float white_average = albedo_of(average, 1.0f, 1.0f);
   const Vec3 multiple = vec3(multiple_schlick(m.reflectance.x, white_average),
                              multiple_schlick(m.reflectance.y, white_average),
-                             multiple_schlick(m.reflectance.z, white_average)) * m.metallic;
+                             multiple_schlick(m.reflectance.z, white_average)) *
+                        m.metallic;
   l.diffuse = vec3(0.0f, 0.0f, 0.0f);
   l.multiple = vec3(0.0f, 0.0f, 0.0f);
   if (left_average > 0.0f)
@@ -206,7 +214,8 @@ PHYS PrincipledLobes principled_lobes(const UNI SceneView &scene, Material m, in
   const FacetScattering facets = facet_scattering(m, l.specular, min_of(wo.z, 1.0f));
   const float w_coat = l.top.coat;
   const float w_sheen = (1.0f - l.top.coat) * max_component(m.sheen) * l.top.sheen;
-  const float w_broad = below * max_component(m.reflectance * (plastic * left) + multiple * left_white);
+  const float w_broad =
+      below * max_component(m.reflectance * (plastic * left) + multiple * left_white);
   const float w_facets =
       below * (max_component(f0 * e.at_f0) + f90 * e.at_f90 +
                max_component(facets.reflected) * glass + max_component(facets.transmitted));
@@ -222,8 +231,8 @@ PHYS PrincipledLobes principled_lobes(const UNI SceneView &scene, Material m, in
 // ---- value and density ----------------------------------------------------------------------------
 
 /// f cos and density of reflection, h: half vector; wi.z > 0.
-PHYS BsdfValue principled_reflected(const UNI SceneView &scene, Material m, PrincipledLobes l, Vec3 wo,
-                                    Vec3 wi, Vec3 h) {
+PHYS BsdfValue principled_reflected(const UNI SceneView &scene, Material m, PrincipledLobes l,
+                                    Vec3 wo, Vec3 wi, Vec3 h) {
   const float alpha = principled_alpha(m.alpha);
   const float wo_h = clamp_to(dot(wo, h), 0.0f, 1.0f);
   TopLayers top = no_top_layers();
@@ -251,8 +260,8 @@ PHYS BsdfValue principled_reflected(const UNI SceneView &scene, Material m, Prin
     const float coat_alpha = principled_alpha(m.clearcoat_alpha);
     const float coat_d = ggx_d(h, coat_alpha) / (4.0f * wo.z);
     const Vec3 f = fresnel_schlick(wo_h, vec3(PHALANX_COAT_F0, PHALANX_COAT_F0, PHALANX_COAT_F0));
-    v.f_cos = v.f_cos * below_coat(l.top, top) +
-              f * (m.clearcoat * coat_d * ggx_g2(wo, wi, coat_alpha));
+    v.f_cos =
+        v.f_cos * below_coat(l.top, top) + f * (m.clearcoat * coat_d * ggx_g2(wo, wi, coat_alpha));
     v.pdf = v.pdf + l.p_coat * coat_d * ggx_g1(wo, coat_alpha);
   }
   return v;
@@ -273,8 +282,8 @@ PHYS BsdfValue principled_transmitted(const UNI SceneView &scene, Material m, Pr
   const float eta = l.specular.eta;
   const float d = ggx_d(h, alpha) * wo_h * refraction_jacobian(wo_h, facets.cos_t, eta) / wo.z;
   BsdfValue v;
-  v.f_cos = facets.transmitted *
-            (through_top(scene, m, l, wi) * d * ggx_g2(wo, wi, alpha) / (eta * eta));
+  v.f_cos =
+      facets.transmitted * (through_top(scene, m, l, wi) * d * ggx_g2(wo, wi, alpha) / (eta * eta));
   v.pdf = l.p_facets * (1.0f - facets.probability) * d * ggx_g1(wo, alpha);
   return v;
 }
@@ -290,14 +299,15 @@ PHYS BsdfSample principled_sample(BsdfValue v, Vec3 wi) {
 }
 
 /// Refraction at the microfacet h; straight on where the indices are the same.
-PHYS BsdfSample sample_principled_refraction(const UNI SceneView &scene, Material m, PrincipledLobes l,
-                                             FacetScattering facets, Vec3 wo, Vec3 h) {
+PHYS BsdfSample sample_principled_refraction(const UNI SceneView &scene, Material m,
+                                             PrincipledLobes l, FacetScattering facets, Vec3 wo,
+                                             Vec3 h) {
   if (is_index_matched(m.ior)) {
     BsdfSample s;
     s.wi = neg(wo);
     s.pdf = 0.0f;
-    s.weight = facets.transmitted * (through_top(scene, m, l, s.wi) /
-                                     (l.p_facets * (1.0f - facets.probability)));
+    s.weight = facets.transmitted *
+               (through_top(scene, m, l, s.wi) / (l.p_facets * (1.0f - facets.probability)));
     return s;
   }
   const float eta = l.specular.eta;
@@ -306,8 +316,8 @@ PHYS BsdfSample sample_principled_refraction(const UNI SceneView &scene, Materia
   return principled_sample(principled_transmitted(scene, m, l, facets, wo, wi, h), wi);
 }
 
-PHYS BsdfSample sample_principled(const UNI SceneView &scene, Material m, int32 front, Vec3 wo, Vec2 u,
-                                  float u_lobe) {
+PHYS BsdfSample sample_principled(const UNI SceneView &scene, Material m, int32 front, Vec3 wo,
+                                  Vec2 u, float u_lobe) {
   const PrincipledLobes l = principled_lobes(scene, m, front, wo);
   const float p_top = l.p_coat + l.p_sheen;
   const bool is_coat = u_lobe < l.p_coat;
@@ -337,7 +347,8 @@ PHYS BsdfSample sample_principled(const UNI SceneView &scene, Material m, int32 
   return principled_sample(principled_reflected(scene, m, l, wo, wi, h), wi);
 }
 
-PHYS BsdfValue eval_principled(const UNI SceneView &scene, Material m, int32 front, Vec3 wo, Vec3 wi) {
+PHYS BsdfValue eval_principled(const UNI SceneView &scene, Material m, int32 front, Vec3 wo,
+                               Vec3 wi) {
   const bool reflects = wi.z > 0.0f;
   if (wi.z == 0.0f) return no_value();
   const PrincipledLobes l = principled_lobes(scene, m, front, wo);

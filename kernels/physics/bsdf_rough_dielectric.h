@@ -16,11 +16,33 @@ PHYS bool is_index_matched(float ior) { return abs_of(ior - 1.0f) < 1e-4f; }
 /// Index of the far side over that of wo's side.
 PHYS float relative_index(Material m, int32 front) { return front != 0 ? m.ior : 1.0f / m.ior; }
 
-/// Probability of choosing reflection: its share of what both lobes carry.
-PHYS float reflection_probability(Material m, float reflectance) {
+/// What an interface does with light, and how the two lobes are chosen: by what they carry, tints included.
+struct DielectricLobes {
+  float reflectance, transmittance;  // without tints
+  float reflects, transmits;         // probabilities
+};
+
+PHYS DielectricLobes dielectric_lobes(Material m, float reflectance, float transmittance) {
   const float r = reflectance * max_component(m.specular);
-  const float t = (1.0f - reflectance) * max_component(m.transmittance);
-  return r > 0.0f ? r / (r + t) : 0.0f;
+  const float t = transmittance * max_component(m.transmittance);
+  DielectricLobes lobes;
+  lobes.reflectance = reflectance;
+  lobes.transmittance = transmittance;
+  lobes.reflects = r > 0.0f ? r / (r + t) : 0.0f;
+  lobes.transmits = t > 0.0f ? t / (r + t) : 0.0f;
+  return lobes;
+}
+
+PHYS bool is_dark(DielectricLobes lobes) { return !(lobes.reflects + lobes.transmits > 0.0f); }
+PHYS bool chooses_reflection(DielectricLobes lobes, float u_lobe) {
+  return u_lobe < lobes.reflects || !(lobes.transmits > 0.0f);
+}
+
+/// The lobes at a surface; cos_t is 0 under total reflection.
+PHYS DielectricLobes interface_lobes(Material m, float cos_i, float cos_t, float eta) {
+  if (!(cos_t > 0.0f)) return dielectric_lobes(m, 1.0f, 0.0f);
+  return dielectric_lobes(m, fresnel_reflectance(cos_i, cos_t, eta),
+                          fresnel_transmittance(cos_i, cos_t, eta));
 }
 
 /// Solid angle of normals per solid angle of refracted directions (Walter et al., eq. 17):
@@ -45,17 +67,18 @@ PHYS BsdfSample sample_rough_dielectric(Material m, int32 front, Vec3 wo, Vec2 u
   const float wo_h = min_of(dot(wo, h), 1.0f);
   if (!(wo_h > 0.0f)) return no_sample();
   const Refraction r = fresnel_dielectric(wo_h, eta);
-  const float p = reflection_probability(m, r.reflectance);
-  const bool reflects = u_lobe < p;
+  const DielectricLobes lobes = interface_lobes(m, wo_h, r.cos_t, eta);
+  if (is_dark(lobes)) return no_sample();
+  const bool reflects = chooses_reflection(lobes, u_lobe);
   float density;  // of wi, relative to that of h
   if (reflects) {
     s.wi = normalize(h * (2.0f * wo_h) - wo);
-    s.weight = m.specular * (r.reflectance / p);
-    density = p / (4.0f * wo_h);
+    s.weight = m.specular * (lobes.reflectance / lobes.reflects);
+    density = lobes.reflects / (4.0f * wo_h);
   } else {
     s.wi = normalize(h * (wo_h / eta - r.cos_t) - wo * (1.0f / eta));
-    s.weight = m.transmittance * ((1.0f - r.reflectance) / ((1.0f - p) * eta * eta));
-    density = (1.0f - p) * refraction_jacobian(wo_h, r.cos_t, eta);
+    s.weight = m.transmittance * (lobes.transmittance / (lobes.transmits * eta * eta));
+    density = lobes.transmits * refraction_jacobian(wo_h, r.cos_t, eta);
   }
   if ((s.wi.z > 0.0f) != reflects || s.wi.z == 0.0f || is_black(s.weight)) return no_sample();
   if (!is_rough) return s;
@@ -75,19 +98,24 @@ PHYS BsdfValue eval_rough_dielectric(Material m, int32 front, Vec3 wo, Vec3 wi) 
   const Vec3 h = along.z > 0.0f ? along : neg(along);
   const float wo_h = min_of(dot(wo, h), 1.0f);
   if (!(wo_h > 0.0f) || (dot(wi, h) > 0.0f) != reflects) return no_value();
-  const Refraction r = fresnel_dielectric(wo_h, eta);
-  const float p = reflection_probability(m, r.reflectance);
+  // From both cosines as they are: close to total reflection Snell's law would lose their digits.
+  float cos_t = -dot(wi, h);
+  if (reflects) {
+    const Refraction r = fresnel_dielectric(wo_h, eta);
+    cos_t = r.cos_t;
+  }
+  const DielectricLobes lobes = interface_lobes(m, wo_h, cos_t, eta);
   const float d = ggx_d(h, m.alpha) / wo.z;
   const float shadowed = d * ggx_g2(wo, wi, m.alpha);
   const float visible = d * ggx_g1(wo, m.alpha);
   BsdfValue v;
   if (reflects) {
-    v.f_cos = m.specular * (r.reflectance * shadowed * 0.25f);
-    v.pdf = p * visible * 0.25f;
+    v.f_cos = m.specular * (lobes.reflectance * shadowed * 0.25f);
+    v.pdf = lobes.reflects * visible * 0.25f;
   } else {
-    const float jacobian = wo_h * refraction_jacobian(wo_h, r.cos_t, eta);
-    v.f_cos = m.transmittance * ((1.0f - r.reflectance) * shadowed * jacobian / (eta * eta));
-    v.pdf = (1.0f - p) * visible * jacobian;
+    const float jacobian = wo_h * refraction_jacobian(wo_h, cos_t, eta);
+    v.f_cos = m.transmittance * (lobes.transmittance * shadowed * jacobian / (eta * eta));
+    v.pdf = lobes.transmits * visible * jacobian;
   }
   if (!(v.pdf > 0.0f) || !is_finite(v.pdf)) return no_value();
   return v;

@@ -13,16 +13,16 @@ PHALANX_BEGIN
 #define PHALANX_FON_2 0.0724882111f  // 2/3 - 28 / (15 pi)
 
 /// What FON loses in direction mu (cosine, in [0,1]) over A r: PHALANX_FON_1 - G(mu) / pi, where its
-/// albedo is A (1 + r G / pi). In [0, PHALANX_FON_1], 0 at grazing angles. EON, eq. 26, without its
+/// albedo is A (1 + r G / pi). In [0, PHALANX_FON_1], 0 at grazing angles. Listing 1, without its
 /// division by mu: (1 - s^3) / mu = mu (1 + s + s^2) / (1 + s).
 PHYS float fon_loss(float mu) {
   const float s = safe_sqrt((1.0f - mu) * (1.0f + mu));
-  const float g = s * (acos_of(mu) - s * mu) +
-                  0.666666667f * (s * mu * (1.0f + s + s * s) / (1.0f + s) - s);
+  const float g =
+      s * (acos_of(mu) - s * mu) + 0.666666667f * (s * mu * (1.0f + s + s * s) / (1.0f + s) - s);
   return max_of(PHALANX_FON_1 - g * PHALANX_INV_PI, 0.0f);
 }
 
-/// Albedo of the light that scatters more than once, one channel. average: of FON's albedo. EON, eq. 17.
+/// Albedo of the light that scatters more than once, one channel. average: of FON's albedo.
 PHYS float eon_multiple(float reflectance, float average) {
   return reflectance * reflectance * average / (1.0f - reflectance * (1.0f - average));
 }

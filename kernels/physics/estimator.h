@@ -39,12 +39,12 @@ struct Vertex {
 };
 
 PHYS PathState start_path(const UNI FrameView &frame, int32 x, int32 y, int32 sample) {
-  const uint32 scramble = pixel_scramble(x, y, frame.seed);
+  const uint32 scramble = pixel_scramble(frame, x, y);
   const Ray ray = camera_ray(frame, x, y, scramble, sample);
   PathState p;
   p.origin = ray.origin;
   p.direction = ray.direction;
-  p.throughput = vec3(1.0f, 1.0f, 1.0f);
+  p.throughput = vec3(ray.weight, ray.weight, ray.weight);
   p.pdf = 0.0f;
   p.depth = 0;
   p.scramble = (int32)scramble;
@@ -111,6 +111,19 @@ PHYS bool lights_side(LightSample light, Vec3 start, Vec3 normal) {
   return dot(light.direction, normal) > 0.0f && dot(light.point - start, normal) > 0.0f;
 }
 
+/// True for kinds whose transmission leaves a curve on its far side.
+template <int Kind>
+PHYS UNI bool crosses_curves() {
+  return Kind == kHair || Kind == kThinDielectric;
+}
+
+/// Where a ray starts that scattering sends in direction w.
+template <int Kind, int D>
+PHYS Vec3 scattered_origin(Surface s, Vec3 w) {
+  if (D == kRich && crosses_curves<Kind>()) return spawn_beyond(s, w);
+  return spawn_origin(s, w);
+}
+
 /// Light sampled at a surface, with its weight and the path's throughput.
 template <int Kind, int D>
 PHYS ShadowRay direct_light(const UNI SceneView &scene, const UNI FrameView &frame, PathState p,
@@ -127,8 +140,9 @@ PHYS ShadowRay direct_light(const UNI SceneView &scene, const UNI FrameView &fra
   const bool above = lights_side(light, start, s.normal);
   bool below = false;
   if (transmits<Kind>()) {
-    const Vec3 back = s.position - s.normal * s.offset;
+    Vec3 back = s.position - s.normal * s.offset;
     below = lights_side(light, back, neg(s.normal));
+    if (D == kRich && crosses_curves<Kind>()) back = spawn_beyond(s, light.direction);
     if (below) {
       ray.origin = back;
       if (light.distance < PHALANX_FAR) {
@@ -209,7 +223,7 @@ PHYS Vertex scatter(const UNI SceneView &scene, const UNI FrameView &frame, Path
     if (u_lobe.y >= survival) return v;
     throughput = throughput * (1.0f / survival);
   }
-  v.next.origin = spawn_origin(s, wi);
+  v.next.origin = scattered_origin<Kind, D>(s, wi);
   v.next.direction = normalize(wi);
   v.next.throughput = throughput;
   v.next.pdf = b.pdf;

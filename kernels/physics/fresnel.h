@@ -4,6 +4,21 @@
 
 PHALANX_BEGIN
 
+/// Reflectance of a dielectric interface from the cosines on both sides, not both 0. eta: index on the far
+/// side over index on the near side.
+PHYS float fresnel_reflectance(float cos_i, float cos_t, float eta) {
+  const float parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+  const float perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+  return 0.5f * (parallel * parallel + perpendicular * perpendicular);
+}
+
+/// 1 - fresnel_reflectance(), which keeps its digits close to total reflection and at grazing angles.
+PHYS float fresnel_transmittance(float cos_i, float cos_t, float eta) {
+  const float parallel = 1.0f / (eta * cos_i + cos_t);
+  const float perpendicular = 1.0f / (cos_i + eta * cos_t);
+  return 2.0f * eta * cos_i * cos_t * (parallel * parallel + perpendicular * perpendicular);
+}
+
 struct Refraction {
   float reflectance;   // in [0,1]; exactly 1 under total internal reflection
   float cos_t;         // cosine of the transmitted direction, >= 0; 0 under total reflection
@@ -24,9 +39,7 @@ PHYS Refraction fresnel_dielectric(float cos_i, float eta) {
     return r;
   }
   r.cos_t = square_root(cos2_t);
-  const float parallel = (eta * cos_i - r.cos_t) / (eta * cos_i + r.cos_t);
-  const float perpendicular = (cos_i - eta * r.cos_t) / (cos_i + eta * r.cos_t);
-  r.reflectance = 0.5f * (parallel * parallel + perpendicular * perpendicular);
+  r.reflectance = fresnel_reflectance(cos_i, r.cos_t, eta);
   return r;
 }
 

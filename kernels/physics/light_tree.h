@@ -1,17 +1,12 @@
 // The tree of lights: choosing among many by what each may contribute to a point.
 //
-// Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting" (HPG 2018);
-// the importance of a node as in pbrt-v4, without the receiver's normal: so the probability of a light is
-// a function of the point alone, and light that is met by chance can be weighted against it.
+// Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting" (HPG 2018),
+// without the receiver's normal: so the probability of a light is a function of the point alone, and light
+// that is met by chance can be weighted against it.
 #pragma once
 #include "../scene_view.h"
 
 PHALANX_BEGIN
-
-/// What may reach a point: power * cosine / distance2, kept apart so that no unit of length overflows.
-struct NodeImportance {
-  float power, distance2;
-};
 
 struct Angle {
   float sine, cosine;  // of an angle in [0, pi]
@@ -35,16 +30,14 @@ PHYS Angle angle_beyond(Angle a, Angle b) {
   return r;
 }
 
-/// Zero only where no light of the node can shine: the angles are bounds, and there is a margin for their
-/// rounding. At grazing angles and within the box's sphere the estimate is kept away from 0 and infinity.
-PHYS NodeImportance node_importance(LightNode node, Vec3 origin) {
+/// What may leave a node for a point, but for the distance: power times cosine. Zero only where no light of
+/// the node can shine: the angles are bounds, and there is a margin for their rounding. Within the box's
+/// sphere and at grazing angles it is kept away from 0.
+PHYS float node_power(LightNode node, Vec3 origin) {
   const Vec3 from_center = origin - (node.lo + node.hi) * 0.5f;
   const float radius2 = length_squared((node.hi - node.lo) * 0.5f);
   const float distance2 = length_squared(from_center);
-  NodeImportance r;
-  r.power = node.power;
-  r.distance2 = max_of(max_of(distance2, radius2), 1.0e-37f);
-  if (!(distance2 > radius2)) return r;
+  if (!(distance2 > radius2)) return node.power;
   const float cos_w = dot(node.axis, from_center) / square_root(distance2);
   const float sin2_b = radius2 / distance2;
   Angle b;  // half the angle that the box's sphere fills
@@ -52,25 +45,45 @@ PHYS NodeImportance node_importance(LightNode node, Vec3 origin) {
   b.cosine = square_root(1.0f - sin2_b);
   const Angle w = angle_of_cosine(clamp_to(cos_w, -1.0f, 1.0f));
   const Angle least = angle_beyond(angle_beyond(w, angle_of_cosine(node.cos_o)), b);
-  if (least.cosine < node.cos_e - 1.0e-3f) r.power = 0.0f;
-  r.power = r.power * max_of(least.cosine, 0.01f);
-  return r;
+  if (least.cosine < node.cos_e - 1.0e-3f) return 0.0f;
+  return node.power * max_of(least.cosine, 0.01f);
 }
 
-/// Probability of going to the first of the two nodes from `first` on.
+/// Squared distances to the nearest and to the farthest point of a node's box.
+PHYS float nearest_squared(LightNode node, Vec3 origin) {
+  return length_squared(
+      max3(max3(node.lo - origin, origin - node.hi), vec3(0.0f, 0.0f, 0.0f)));
+}
+PHYS float farthest_squared(LightNode node, Vec3 origin) {
+  return length_squared(max3(abs3(node.lo - origin), abs3(node.hi - origin)));
+}
+
+/// The share of a in a / da + b / db, for distances that may be 0; a / (a + b) where both are.
+PHYS float share_by_distance(float a, float da, float b, float db) {
+  const float farther = max_of(da, db);
+  if (!(farther > 0.0f)) return a / (a + b);
+  const float wa = a * (db / farther);
+  const float wb = b * (da / farther);
+  return wa / (wa + wb);
+}
+
+/// Probability of going to the first of the two nodes from `first` on: the mean of what the nearest and the
+/// farthest points of the boxes say (Yuksel, "Stochastic Lightcuts for Sampling Many Lights", TVCG 2020).
+/// A distance to the centre alone misjudges boxes that are near or around the point: the variance in a town
+/// of 600 lanterns was 3 to 10 times as large.
 PHYS float first_probability(const UNI SceneView &scene, int32 first, Vec3 origin) {
   const LightNode a = fetch(scene.light_nodes, first);
   const LightNode b = fetch(scene.light_nodes, first + 1);
-  const NodeImportance ia = node_importance(a, origin);
-  const NodeImportance ib = node_importance(b, origin);
-  const float farther = max_of(ia.distance2, ib.distance2);
-  float wa = ia.power * (ib.distance2 / farther);
-  float wb = ib.power * (ia.distance2 / farther);
-  if (!(wa + wb > 0.0f)) {  // nothing shines here: any choice will do
-    wa = a.power;
-    wb = b.power;
+  float pa = node_power(a, origin);
+  float pb = node_power(b, origin);
+  if (!(pa + pb > 0.0f)) {  // nothing shines here: any choice will do
+    pa = a.power;
+    pb = b.power;
   }
-  return wa / (wa + wb);
+  const float far = share_by_distance(pa, max_of(farthest_squared(a, origin), 1.0e-37f), pb,
+                                      max_of(farthest_squared(b, origin), 1.0e-37f));
+  if (!(pa > 0.0f) || !(pb > 0.0f)) return far;
+  return 0.5f * (far + share_by_distance(pa, nearest_squared(a, origin), pb, nearest_squared(b, origin)));
 }
 
 struct ChosenLight {

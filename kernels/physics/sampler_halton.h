@@ -4,9 +4,9 @@
 // True dimensions instead of padded pairs: pairs of the same two bases would go through their strata in
 // step, and there is no shuffle of the index that keeps both bases. Primes are larger for later dimensions,
 // and while there are fewer samples than the prime, that coordinate is hardly better than random.
-// Scrambling is Owen's: each node of the tree of digits has a permutation of its own. Permutations
-// d -> shift + factor * d would be cheaper and no worse by themselves, but two primes run through their
-// strata at nearly one speed where the factors happen to allow it.
+// Scrambling is Owen's: each node of the tree of digits has a permutation of its own. It need only send
+// any two digits anywhere, which d -> shift + factor * d does; but by themselves such maps let two primes
+// run through their strata in step where the factors happen to agree, so a round of hashing comes first.
 #pragma once
 #include "../scene_view.h"
 #include "permutation.h"
@@ -42,7 +42,7 @@ PHYS float scrambled_radical_inverse(int32 index, int32 prime, uint32 seed, int3
   while (size < to_float(n) || rest > 0) {
     node = hash32(node);
     const int32 next = quotient(rest, prime);
-    const int32 mixed = permuted<MIXR>(rest - next * prime, prime, node);
+    const int32 mixed = permuted<1>(rest - next * prime, prime, node);
     const int32 factor = 1 + (int32)(((node & 0xffffu) * (uint32)(prime - 1)) >> 16);
     const int32 moved = to_int(unit_float(node) * to_float(prime)) + factor * mixed;
     const int32 digit = moved - quotient(moved, prime) * prime;

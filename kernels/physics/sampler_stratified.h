@@ -1,6 +1,7 @@
 // Correlated multi-jittered samples (Kensler, "Correlated Multi-Jittered Sampling", Pixar technical memo
 // 13-01, 2013): n samples, for any n, of which each coordinate has one in every 1/n (x: where n is a
-// multiple of the number of columns), and each cell of a coarse grid has one.
+// multiple of the number of columns), and each cell of a coarse grid has one. Offsets within the cells are
+// shared along rows and columns, which spreads the points and helps edges.
 #pragma once
 #include "../scene_view.h"
 #include "permutation.h"

@@ -70,11 +70,15 @@ PHYS Vec2 sample_spherical_rectangle(SphericalRectangle r, Vec2 u) {
 struct SphericalTriangle {
   Vec3 v0, v1, v2;                     // unit, to the vertices
   float inverse0, inverse1, inverse2;  // 1 / distance of each vertex
-  float d12, edge;                     // dot(v1, v2), 1 + dot(v0, v1)
-  float volume, closeness;             // |det(v0, v1, v2)|, 1 + the sum of the three dot products
+  float d01, d02;                      // dot products of the vertices
+  float plus01, plus12;                // 1 + those, also where vertices are opposite
+  float volume, closeness;             // |det(v0, v1, v2)|, 1 + all three dot products
   float half_turns;                    // half the solid angle: its tangent is volume / closeness
   float solid_angle;
 };
+
+/// 1 + dot(a, b) of unit vectors, with digits left where they are nearly opposite.
+PHYS float one_plus_dot(Vec3 a, Vec3 b) { return 0.5f * length_squared(a + b); }
 
 /// `p0`: from the point to a vertex; edges a and b from there, n the unit normal of both. Van Oosterom and
 /// Strackee 1983, with the volume from the height over the plane: it keeps its digits from afar.
@@ -88,40 +92,42 @@ PHYS SphericalTriangle spherical_triangle(Vec3 p0, Vec3 a, Vec3 b, Vec3 n, float
   t.v0 = p0 * t.inverse0;
   t.v1 = p1 * t.inverse1;
   t.v2 = p2 * t.inverse2;
-  t.d12 = dot(t.v1, t.v2);
-  t.edge = 1.0f + dot(t.v0, t.v1);
+  t.d01 = dot(t.v0, t.v1);
+  t.d02 = dot(t.v0, t.v2);
+  t.plus01 = one_plus_dot(t.v0, t.v1);
+  t.plus12 = one_plus_dot(t.v1, t.v2);
   t.volume = abs_of(dot(t.v0, n)) * (2.0f * area * t.inverse1 * t.inverse2);
-  t.closeness = t.edge + t.d12 + dot(t.v0, t.v2);
+  t.closeness = t.plus12 + dot(t.v0, t.v1 + t.v2);
   t.half_turns = atan2_turns(t.volume, t.closeness);
   t.solid_angle = 4.0f * PHALANX_PI * t.half_turns;
   return t;
 }
 
 /// Barycentric coordinates of vertices 1 and 2. The triangle is swept by arcs (Arvo, "Stratified Sampling
-/// of Spherical Triangles", SIGGRAPH 1995) found by half vectors (Peters, "BRDF Importance Sampling for
-/// Polygonal Lights", SIGGRAPH 2021); rearranged here into sums of positive terms, in which nothing
-/// cancels.
+/// of Spherical Triangles", SIGGRAPH 1995) whose ends are found by half vectors (Peters, "BRDF Importance
+/// Sampling for Polygonal Lights", SIGGRAPH 2021); all weights are sums of positive terms here.
 PHYS Vec2 sample_spherical_triangle(SphericalTriangle t, Vec2 u) {
-  // q, the end of the arc behind which lies the share u.x of the solid angle: v1 mirrored at the half
-  // vector alpha v1 + beta v2. `more` is alpha - beta.
+  // q = q1 v1 + q2 v2, the end of the arc behind which lies the share u.x of the solid angle: v1 mirrored
+  // at the half vector alpha v1 + beta v2. `more` is alpha - beta.
   const SinCos below = sincos_turns(u.x * t.half_turns);
   const SinCos above = sincos_turns((1.0f - u.x) * t.half_turns);
   const float radius = square_root(t.volume * t.volume + t.closeness * t.closeness);
-  const float beta = t.edge * below.sine;
+  const float beta = t.plus01 * below.sine;
   const float more = radius * above.sine;
-  const float norm = more * more + 2.0f * (more + beta) * beta * (1.0f + t.d12);
+  const float norm = more * more + 2.0f * (more + beta) * beta * t.plus12;
   const float q1 = more * (more + 2.0f * beta) / norm;
-  const float q2 = 2.0f * beta * (more + beta * (1.0f + t.d12)) / norm;
-  // On the arc from v0 to q, uniform in the cosine. c: 1 - cos of the whole arc; r: weight of q.
+  const float q2 = 2.0f * beta * (more + beta * t.plus12) / norm;
+  // On the arc from v0 to q, uniform in the cosine: v0 sin(arc - theta) + q sin(theta). The arc's sine from
+  // what is across v0: near half a turn, as just below the triangle, q does not tell where the arc goes.
   const Vec3 chord = t.v1 * q1 + t.v2 * q2 - t.v0;
-  const float c = 0.5f * dot(chord, chord);
-  const float rest = max_of(2.0f - c, 1.0e-7f);
-  const float r = safe_sqrt(u.y * (2.0f - u.y * c) / rest);
-  const float w0 = (1.0f - u.y) * (2.0f - c * (1.0f + u.y)) / (rest * (1.0f + r)) + c * (r - u.y);
+  const float c = 0.5f * dot(chord, chord);  // 1 - cos of the arc
+  const float sin_arc = length((t.v1 - t.v0 * t.d01) * q1 + (t.v2 - t.v0 * t.d02) * q2);
+  const float h = u.y * c;  // 1 - cos theta
+  const float sin_theta = safe_sqrt(h * (2.0f - h));
   // What is a weight of a direction is, over its distance, a weight of a vertex.
-  const float f0 = max_of(w0, 0.0f) * t.inverse0;
-  const float f1 = r * q1 * t.inverse1;
-  const float f2 = r * q2 * t.inverse2;
+  const float f0 = max_of(sin_arc * (1.0f - h) - (1.0f - c) * sin_theta, 0.0f) * t.inverse0;
+  const float f1 = sin_theta * q1 * t.inverse1;
+  const float f2 = sin_theta * q2 * t.inverse2;
   const float scale = 1.0f / (f0 + f1 + f2);
   return vec2(f1 * scale, f2 * scale);
 }

@@ -1,6 +1,7 @@
 // From a hit to a surface: where, which way it faces, and how far a new ray must start off it.
 #pragma once
 #include "mathx.h"
+#include "motion.h"
 #include "shape.h"
 #include "texture.h"
 
@@ -14,7 +15,29 @@ struct Hit {
   int32 instance;   // -1 outside instances
   int32 far_root;   // spheres: 1 if the ray met the far side
   int32 material;   // 1 + the material that a blend came down to; 0: the geometry's own
+  float time;       // of the path, in [0, 1]; 0 in scenes without motion
+  float u;          // curves: place on the segment in [0, 1], negative (or -0) on the far side
 };
+
+/// Is the hit on a curve? `geometry` and `instance` are Embree's ids.
+PHYS bool hits_curve(const UNI SceneView &scene, int32 geometry, int32 instance) {
+  if (scene.num_curve_segments == 0) return false;
+  int32 record = geometry;
+  if (scene.num_instances > 0 && instance >= 0)
+    record = geometry + scene.instances[instance - scene.num_top_geometries].first_geometry;
+  return scene.geometries[record].shape == kCurves;
+}
+
+/// Hit::u from what Embree says of a hit on a curve: u, and the normal in the space of the curve's group.
+PHYS float curve_hit_u(const UNI SceneView &scene, int32 instance, float time, float u,
+                       Vec3 normal, Vec3 direction) {
+  Vec3 d = direction;
+  if (scene.num_instances > 0 && instance >= 0) {
+    const Instance i = instance_at(scene, instance - scene.num_top_geometries, time);
+    d = transform_vector(i.to_object, direction);
+  }
+  return copy_sign(u, dot(normal, d) > 0.0f ? -1.0f : 1.0f);
+}
 
 /// True for barycentric coordinates so near an edge that a neighbour can be hit at the same distance.
 /// Which of the two a query returns then depends on the order in which it visited them: packets, single
@@ -37,6 +60,7 @@ struct Surface {
   // kRich only.
   TexturePoint at;
   Vec3 dpdu, dpdv;   // how position moves with uv; either may be 0
+  float thickness;   // metres across a curve; 0 for everything else
 };
 
 /// A bound on the rounding error of a point whose coordinates were computed from numbers no larger
@@ -54,6 +78,7 @@ struct LocalSurface {
   Vec3 extent;                            // largest absolute coordinates that entered position
   Vec2 uv;                                // kRich only, like what follows
   Vec3 dpdu, dpdv, colour;
+  float thickness;                        // curves only
 };
 
 struct PlanePoint {
@@ -203,6 +228,37 @@ PHYS LocalSurface disk_surface(const UNI SceneView &scene, Geometry g, Hit hit, 
   return s;
 }
 
+/// A segment of a strand is what a sphere sweeps from one point to the next while its radius changes
+/// (Embree's round linear curves). The hit lies on the sphere at hit.u. uv: place along the strand, 0.
+PHYS LocalSurface curve_surface(const UNI SceneView &scene, Geometry g, Hit hit, Vec3 origin,
+                                Vec3 direction) {
+  const int32 i = scene.curve_segments[g.first + hit.primitive];
+  const Vec3 a = vec3(scene.curve_points[4 * i], scene.curve_points[4 * i + 1],
+                      scene.curve_points[4 * i + 2]);
+  const Vec3 b = vec3(scene.curve_points[4 * i + 4], scene.curve_points[4 * i + 5],
+                      scene.curve_points[4 * i + 6]);
+  const float radius_a = scene.curve_points[4 * i + 3];
+  const float radius_b = scene.curve_points[4 * i + 7];
+  const float u = abs_of(hit.u);
+  Sphere sphere;
+  sphere.center = a * (1.0f - u) + b * u;
+  sphere.radius = radius_a * (1.0f - u) + radius_b * u;
+  const float t = sphere_root(origin, direction, sphere, bits_from_float(hit.u) < 0 ? 1 : 0);
+  LocalSurface s;
+  s.normal = safe_normalize(origin + direction * t - sphere.center, vec3(0.0f, 0.0f, 1.0f));
+  s.position = sphere.center + s.normal * sphere.radius;
+  s.shading_normal = s.normal;
+  s.extent = max3(abs3(a), abs3(b)) + vec3(sphere.radius, sphere.radius, sphere.radius);
+  const float along_a = scene.curve_along[i];
+  const float along_b = scene.curve_along[i + 1];
+  s.uv = vec2(along_a * (1.0f - u) + along_b * u, 0.0f);
+  s.dpdu = (b - a) * (1.0f / (along_b - along_a));
+  s.dpdv = cross(s.normal, s.dpdu);
+  s.colour = vec3(1.0f, 1.0f, 1.0f);
+  s.thickness = 2.0f * sphere.radius;
+  return s;
+}
+
 /// The surface of a primitive of geometry g, in the space of its group; the ray is in that space, too.
 template <int D>
 PHYS LocalSurface local_surface(const UNI SceneView &scene, Geometry g, Hit hit, Vec3 origin,
@@ -210,6 +266,9 @@ PHYS LocalSurface local_surface(const UNI SceneView &scene, Geometry g, Hit hit,
   if (g.shape == kMesh) return mesh_surface<D>(scene, g, hit, origin, direction);
   if (g.shape == kQuads) return quad_surface<D>(scene, g, hit, origin, direction);
   if (g.shape == kSpheres) return sphere_surface<D>(scene, g, hit, origin, direction);
+  if (D == kRich) {
+    if (g.shape == kCurves) return curve_surface(scene, g, hit, origin, direction);
+  }
   return disk_surface<D>(scene, g, hit, origin, direction);
 }
 
@@ -226,6 +285,13 @@ PHYS Frame textured_frame(Vec3 n, Vec3 dpdu, Vec3 dpdv) {
   return f;
 }
 
+/// The instance of a hit, where it was when the ray met it.
+template <int D>
+PHYS Instance placed_instance(const UNI SceneView &scene, Hit hit) {
+  if (D == kRich) return instance_at(scene, hit.instance, hit.time);
+  return fetch(scene.instances, hit.instance);
+}
+
 /// The surface at a hit (hit.geometry >= 0) of the ray (origin, direction), direction unit.
 template <int D>
 PHYS Surface make_surface(const UNI SceneView &scene, Hit hit, Vec3 origin, Vec3 direction) {
@@ -233,7 +299,7 @@ PHYS Surface make_surface(const UNI SceneView &scene, Hit hit, Vec3 origin, Vec3
   Vec3 o = origin;
   Vec3 d = direction;
   if (scene.num_instances > 0 && hit.instance >= 0) {
-    const Instance instance = fetch(scene.instances, hit.instance);
+    const Instance instance = placed_instance<D>(scene, hit);
     o = transform_point(instance.to_object, origin);
     d = transform_vector(instance.to_object, direction);
   }
@@ -242,13 +308,17 @@ PHYS Surface make_surface(const UNI SceneView &scene, Hit hit, Vec3 origin, Vec3
   if (D == kRich) s.at.position = local.position;
 
   if (scene.num_instances > 0 && hit.instance >= 0) {
-    const Instance instance = fetch(scene.instances, hit.instance);
+    const Instance instance = placed_instance<D>(scene, hit);
     local.position = transform_point(instance.to_world, local.position);
     local.extent = transform_abs(instance.to_world, local.extent);
     local.normal = safe_normalize(transform_transposed(instance.to_object, local.normal),
                                   neg(direction));
     local.shading_normal = transform_transposed(instance.to_object, local.shading_normal);
     if (D == kRich) {
+      if (g.shape == kCurves) {  // their instances are similarities
+        const Vec3 row = vec3(instance.to_world.m00, instance.to_world.m01, instance.to_world.m02);
+        local.thickness = local.thickness * length(row);
+      }
       local.dpdu = transform_vector(instance.to_world, local.dpdu);
       local.dpdv = transform_vector(instance.to_world, local.dpdv);
     }
@@ -273,6 +343,13 @@ PHYS Surface make_surface(const UNI SceneView &scene, Hit hit, Vec3 origin, Vec3
     s.shading = make_frame(ns);
   }
   s.offset = offset_bound(local.extent, s.normal);
+  if (D == kRich) {
+    s.thickness = 0.0f;
+    if (g.shape == kCurves) {
+      s.thickness = local.thickness;
+      s.offset = max_of(s.offset, 5.0e-4f * s.thickness);  // Embree's curves are less precise
+    }
+  }
   s.material = g.material;
   s.light = g.first_light >= 0 ? g.first_light + hit.primitive : -1;
   return s;
@@ -282,6 +359,18 @@ PHYS Surface make_surface(const UNI SceneView &scene, Hit hit, Vec3 origin, Vec3
 PHYS Vec3 spawn_origin(Surface s, Vec3 w) {
   const float side = dot(w, s.normal) >= 0.0f ? s.offset : -s.offset;
   return s.position + s.normal * side;
+}
+
+/// The same for what crosses a curve as a whole: directions below the normal start at the other end of
+/// the chord that they cut off the cross section.
+PHYS Vec3 spawn_beyond(Surface s, Vec3 w) {
+  if (!(s.thickness > 0.0f) || s.front == 0 || dot(w, s.normal) >= 0.0f) return spawn_origin(s, w);
+  const Vec3 axis = safe_normalize(s.dpdu, s.shading.s);
+  const Vec3 across = safe_normalize(w - axis * dot(w, axis), neg(s.normal));
+  Vec3 normal = s.normal - across * (2.0f * dot(across, s.normal));
+  // From round ends and along cones that widen: from the side that faces w most.
+  if (!(dot(normal, w) > 0.0f)) normal = across;
+  return s.position + (normal - s.normal) * (0.5f * s.thickness) + normal * s.offset;
 }
 
 PHALANX_END

@@ -9,7 +9,7 @@ PHALANX_BEGIN
 /// What a texture may depend on.
 struct TexturePoint {
   Vec2 uv;        // of the surface
-  Vec3 position;  // world, metres
+  Vec3 position;  // in the space of the shape's group, metres
   Vec3 colour;    // of the mesh's vertices, interpolated; white without
 };
 
@@ -73,9 +73,10 @@ PHYS Texel load_texel(const UNI SceneView &scene, Texture t, int32 column, int32
   if (t.format == kByteTexels) {
     const int32 rgba = (int32)scene.byte_texels[t.first + i];
     const int32 table = t.srgb != 0 ? 256 : 0;
-    return make_texel(vec3(scene.decode[table + (rgba & 255)], scene.decode[table + ((rgba >> 8) & 255)],
-                           scene.decode[table + ((rgba >> 16) & 255)]),
-                      scene.decode[(rgba >> 24) & 255]);
+    return make_texel(
+        vec3(scene.decode[table + (rgba & 255)], scene.decode[table + ((rgba >> 8) & 255)],
+             scene.decode[table + ((rgba >> 16) & 255)]),
+        scene.decode[(rgba >> 24) & 255]);
   }
   const int32 k = t.first + 4 * i;
   return make_texel(

@@ -55,4 +55,15 @@ PHYS Vec2 square_to_triangle(Vec2 u) {
   return vec2(u.x - 0.5f * u.y, 0.5f * u.y);
 }
 
+/// Regular polygon with corners on the unit circle, the first at `turns` from the x axis, in [0, 1]; n >= 3.
+/// Uniform in area: a triangle of the n around the centre, then a point in it.
+PHYS Vec2 square_to_polygon(Vec2 u, int32 n, float turns) {
+  const float scaled = u.x * to_float(n);
+  const float side = round_down(scaled);
+  const Vec2 b = square_to_triangle(vec2(scaled - side, u.y));
+  const SinCos from = sincos_turns(turns + side / to_float(n));
+  const SinCos to = sincos_turns(turns + (side + 1.0f) / to_float(n));
+  return vec2(from.cosine * b.x + to.cosine * b.y, from.sine * b.x + to.sine * b.y);
+}
+
 PHALANX_END

@@ -65,6 +65,7 @@ void print_scene(const SceneDescription &description, const Scene &scene) {
   line("quads", scene.quads.size());
   line("spheres", scene.spheres.size());
   line("disks", scene.disks.size());
+  if (!scene.curve_segments.empty()) line("curve segments", scene.curve_segments.size());
   line("instances", fmt::format("{} of {} groups", scene.instances.size(), scene.groups.size()));
   line("visible triangles", num_visible_triangles(scene));
   line("materials", fmt::format("{} ({})", scene.materials.size(), materials_by_kind(scene)));

@@ -66,7 +66,8 @@ Imf::Slice slice_of(const Imath::Box2i &window, float *values) {
   return Imf::Slice(Imf::FLOAT, base, sizeof(float), static_cast<std::size_t>(row_bytes));
 }
 
-Image image_of_header(const Imf::Header &header, std::size_t file_size, const std::string &name) {
+Image image_of_header(const Imf::Header &header, std::size_t file_size, const std::string &name,
+                      std::int64_t max_pixels) {
   const Imath::Box2i data = header.dataWindow(), display = header.displayWindow();
   std::int64_t num_channels = 0;
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
@@ -78,7 +79,7 @@ Image image_of_header(const Imf::Header &header, std::size_t file_size, const st
   const std::int64_t width = std::int64_t{data.max.x} - data.min.x + 1;
   const std::int64_t height = std::int64_t{data.max.y} - data.min.y + 1;
   const double max_ratio = 65536;  // a constant picture under PIZ comes near
-  check_image_claim(width, height, 4 * num_channels, file_size, max_ratio, name);
+  check_image_claim(width, height, 4 * num_channels, file_size, max_ratio, name, max_pixels);
 
   Image image = make_image(static_cast<int>(width), static_cast<int>(height));
   image.x = data.min.x - display.min.x;
@@ -116,12 +117,12 @@ std::string encode_exr(const Image &image) {
   return std::move(stream.bytes);
 }
 
-Image decode_exr(const std::string &bytes, const std::string &name) {
+Image decode_exr(const std::string &bytes, const std::string &name, std::int64_t max_pixels) {
   try {
     Imf::Header::setMaxImageSize(kMaxImageSide, kMaxImageSide);
     MemoryReader stream(bytes);
     Imf::InputFile file(stream);
-    Image image = image_of_header(file.header(), bytes.size(), name);
+    Image image = image_of_header(file.header(), bytes.size(), name, max_pixels);
     const Imath::Box2i data = file.header().dataWindow();
     Imf::FrameBuffer pixels;
     for (Channel &channel : image.channels)

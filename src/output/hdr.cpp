@@ -195,11 +195,11 @@ std::string encode_hdr(const Image &image) {
   return bytes;
 }
 
-Image decode_hdr(const std::string &bytes, const std::string &name) {
+Image decode_hdr(const std::string &bytes, const std::string &name, std::int64_t max_pixels) {
   Reader reader(bytes, name);
   Image image = read_header(reader);
   const double max_ratio = 127.0 / 2;  // a run of 127 equal bytes takes two
-  check_image_claim(image.width, image.height, 4, bytes.size(), max_ratio, name);
+  check_image_claim(image.width, image.height, 4, bytes.size(), max_ratio, name, max_pixels);
   for (const char *channel : {"R", "G", "B"}) add_channel(image, channel);
 
   std::vector<Rgbe> row(static_cast<std::size_t>(image.width));

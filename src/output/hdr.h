@@ -14,6 +14,7 @@ namespace phalanx {
 std::string encode_hdr(const Image &image);
 
 /// R, G and B. `name` is for messages. Throws InputError for a damaged file.
-Image decode_hdr(const std::string &bytes, const std::string &name);
+Image decode_hdr(const std::string &bytes, const std::string &name,
+                 std::int64_t max_pixels = INT64_MAX);
 
 }  // namespace phalanx

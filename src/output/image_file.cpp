@@ -62,16 +62,16 @@ void write_image(const std::string &path, const Image &image, double exposure) {
   write_file(path, encode(image, image_format(path), exposure));
 }
 
-Image read_image(const std::string &path) {
+Image read_image(const std::string &path, std::int64_t max_pixels) {
   const ImageFormat format = image_format(path);
   const std::string bytes = read_file(path);
   switch (format) {
     case ImageFormat::kExr:
-      return decode_exr(bytes, path);
+      return decode_exr(bytes, path, max_pixels);
     case ImageFormat::kHdr:
-      return decode_hdr(bytes, path);
+      return decode_hdr(bytes, path, max_pixels);
     case ImageFormat::kPng:
-      return decode_png(bytes, path);
+      return decode_png(bytes, path, max_pixels);
   }
   return {};
 }

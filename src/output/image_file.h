@@ -18,7 +18,7 @@ bool is_image_path(const std::string &path);
 /// `exposure` in stops is used by PNG alone. Throws WriteError; see write_file().
 void write_image(const std::string &path, const Image &image, double exposure);
 
-/// Throws InputError for what is missing, damaged or not an image.
-Image read_image(const std::string &path);
+/// Throws InputError for what is missing, damaged, not an image, or larger than `max_pixels`.
+Image read_image(const std::string &path, std::int64_t max_pixels = INT64_MAX);
 
 }  // namespace phalanx

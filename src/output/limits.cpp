@@ -8,7 +8,8 @@
 namespace phalanx {
 
 void check_image_claim(std::int64_t width, std::int64_t height, std::int64_t bytes_per_pixel,
-                       std::size_t file_size, double max_ratio, const std::string &name) {
+                       std::size_t file_size, double max_ratio, const std::string &name,
+                       std::int64_t max_pixels) {
   if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide)
     throw InputError(fmt::format("{}: {} x {} pixels; each side must be in 1 to {}", name, width,
                                  height, kMaxImageSide));
@@ -18,6 +19,9 @@ void check_image_claim(std::int64_t width, std::int64_t height, std::int64_t byt
   if (claimed > always_granted + max_ratio * static_cast<double>(file_size))
     throw InputError(fmt::format("{}: damaged: claims {} x {} pixels in a file of {} bytes", name,
                                  width, height, file_size));
+  if (width * height > max_pixels)
+    throw InputError(
+        fmt::format("{}: {} x {} pixels; there is room for {}", name, width, height, max_pixels));
 }
 
 }  // namespace phalanx

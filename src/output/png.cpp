@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "../core/error.h"
+#include "../core/srgb.h"
 #include "limits.h"
 
 namespace phalanx {
@@ -89,15 +90,7 @@ Metadata read_text_chunks(const std::string &bytes) {
   return metadata;
 }
 
-// ---- the sRGB curve, IEC 61966-2-1 -------------------------------------------------------------
-
-double srgb_from_linear(double x) {
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-}
-
-double linear_from_srgb(double x) {
-  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-}
+// ---- pixels ------------------------------------------------------------------------------------
 
 unsigned char byte_from_linear(double x) {
   if (!(x > 0)) return 0;  // NaN too
@@ -133,17 +126,19 @@ std::string encode_png(const Image &image, double exposure) {
   return bytes;
 }
 
-Image decode_png(const std::string &bytes, const std::string &name) {
+Image decode_png(const std::string &bytes, const std::string &name, std::int64_t max_pixels) {
   const auto damaged = [&](const char *why) {
     return InputError(fmt::format("{}: not a PNG that can be read: {}", name, why));
   };
+  if (!bytes.starts_with("\x89PNG")) throw damaged("it does not begin as one");
   if (bytes.size() > INT_MAX) throw damaged("larger than 2 GiB");
   const auto *data = reinterpret_cast<const stbi_uc *>(bytes.data());
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, num_channels = 0;
   if (!stbi_info_from_memory(data, size, &width, &height, &num_channels))
     throw damaged(stbi_failure_reason());
-  check_image_claim(width, height, 1, bytes.size(), 8 * kMaxDeflateRatio, name);  // 1 bit a pixel
+  check_image_claim(width, height, 1, bytes.size(), 8 * kMaxDeflateRatio, name,
+                    max_pixels);  // 1 bit a pixel
 
   const std::unique_ptr<stbi_us, void (*)(void *)> pixels(
       stbi_load_16_from_memory(data, size, &width, &height, &num_channels, 3), stbi_image_free);

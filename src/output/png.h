@@ -12,6 +12,7 @@ std::string encode_png(const Image &image, double exposure);
 
 /// R, G and B, linear: the sRGB curve undone. Alpha is ignored. `name` is for messages.
 /// Throws InputError for a file that is damaged, or that claims more pixels than it can hold.
-Image decode_png(const std::string &bytes, const std::string &name);
+Image decode_png(const std::string &bytes, const std::string &name,
+                 std::int64_t max_pixels = INT64_MAX);
 
 }  // namespace phalanx

@@ -1,5 +1,6 @@
-// The code of the stb libraries, PNG alone. Files are ours: stb ignores errors when it writes them.
+// The code of the stb libraries, PNG and JPEG. Files are ours: stb ignores errors when it writes them.
 #define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS (1 << 20)
 #define STB_IMAGE_IMPLEMENTATION

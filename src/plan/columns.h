@@ -19,6 +19,7 @@ void for_each_column(const Plan &plan, WaveView &w, const Visit &visit) {
   visit("sphere root", plan.spheres, w.hit_far_root);
   visit("instance", plan.instances, w.hit_instance);
   visit("resolved material", plan.blends, w.hit_material);
+  visit("place on curve", plan.curves, w.hit_u);
   visit("shadow ray", plan.sample_lights, w.shadow_origin_x, w.shadow_origin_y, w.shadow_origin_z,
         w.shadow_direction_x, w.shadow_direction_y, w.shadow_direction_z, w.shadow_distance,
         w.shadow_r, w.shadow_g, w.shadow_b);

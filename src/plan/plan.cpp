@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "../../kernels/physics/sampler_blue_noise.h"
 #include "../core/parallel.h"
 #include "../scene/build.h"
 #include "../scene/build_lights.h"
@@ -58,6 +59,11 @@ void set_picture(Plan &plan, const SceneDescription &d, const RenderOptions &o) 
   f.filter_offsets = plan.filter_offsets.data();
   f.sampler = d.sampler.kind;
   f.spp = plan.spp;
+  if (f.sampler == kBlueNoiseSampler && blue_noise_bits(f.width, f.height, f.spp) > 32)
+    throw InputError(fmt::format(
+        "sampler blue_noise: {} x {} pixels with {} samples each need more than the 2^32 numbers there "
+        "are; {} samples are possible",
+        f.width, f.height, f.spp, 1 << std::min(30, 32 - blue_noise_bits(f.width, f.height, 1))));
   f.seed = o.seed.value_or(d.sampler.seed);
   f.max_depth = o.max_depth >= 0 ? o.max_depth : d.integrator.max_depth;
   f.roulette_depth = d.integrator.roulette_depth;
@@ -92,9 +98,10 @@ void find_uses(Plan &plan, const Scene &scene) {
     mark_kinds(plan, scene, g.material);
     plan.spheres |= g.shape == kSpheres;
     plan.disks |= g.shape == kDisks;
+    plan.curves |= g.shape == kCurves;
   }
   const bool paths = plan.frame.integrator == kPathIntegrator;
-  plan.rich |= plan.blends || !paths || has_rich_lights(scene);
+  plan.rich |= plan.blends || plan.curves || !scene.motions.empty() || !paths || has_rich_lights(scene);
   bool density = false;
   for (int kind = 0; kind < kNumMaterialKinds; ++kind) {
     density |= plan.material_kinds[kind] && kKinds[kind].has_density;
@@ -163,7 +170,7 @@ void list_left_out(Plan &plan, const Scene &scene) {
     if (!plan.material_kinds[kind])
       plan.left_out.push_back({fmt::format("shade_{}", kKinds[kind].name), "no such material", 0});
   if (plan.frame.camera.lens_radius == 0)
-    plan.left_out.push_back({"lens samples", "pinhole camera", 0});
+    plan.left_out.push_back({"lens samples", "the camera has no lens", 0});
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ struct Plan {
   bool environment = false;
   bool aovs = false;
   bool spheres = false, disks = false;  // analytic: Embree user geometry
+  bool curves = false;
   bool rich = false;                    // kRich kernels: textures, other lights, other materials ...
   bool blends = false;
   // What follows from that.

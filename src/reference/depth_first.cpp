@@ -18,10 +18,11 @@ template <int D>
 Vec3 path_radiance(const SceneView &scene, const FrameView &frame, PathState p, float *aov,
                    RayCounts &rays) {
   Vec3 radiance = {0, 0, 0};
+  const float time = path_time(scene, p.scramble, p.sample);
   while (p.depth >= 0) {
     (p.depth == 0 ? rays.camera : rays.bounce) += 1;
-    const Hit hit = resolve_hit<D>(scene, trace_closest(scene, p.origin, p.direction), p.origin,
-                                   p.direction, p.scramble, p.sample, p.depth);
+    const Hit hit = resolve_hit<D>(scene, frame, trace_closest(scene, p.origin, p.direction, time),
+                                   p.origin, p.direction, p.scramble, p.sample, p.depth);
     if (p.depth == 0 && aov != nullptr) {
       const FirstHit f = first_hit<D>(scene, hit, p.origin, p.direction);
       store(aov, 0, f.albedo);
@@ -36,7 +37,7 @@ Vec3 path_radiance(const SceneView &scene, const FrameView &frame, PathState p, 
     radiance = radiance + v.emitted;
     if (!is_black(v.shadow.contribution)) {
       rays.shadow += 1;
-      if (!trace_occluded(scene, v.shadow.origin, v.shadow.direction, v.shadow.distance))
+      if (!trace_occluded(scene, v.shadow.origin, v.shadow.direction, v.shadow.distance, time))
         radiance = radiance + v.shadow.contribution;
     }
     p = v.next;

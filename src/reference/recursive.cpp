@@ -17,8 +17,9 @@ struct Tracer {
   /// Radiance arriving along the ray of p. p.throughput is only what roulette looks at.
   Vec3 incident(PathState p, float *aov) {
     (p.depth == 0 ? rays.camera : rays.bounce) += 1;
-    const Hit hit = resolve_hit<D>(scene, trace_closest(scene, p.origin, p.direction), p.origin,
-                                   p.direction, p.scramble, p.sample, p.depth);
+    const float time = path_time(scene, p.scramble, p.sample);
+    const Hit hit = resolve_hit<D>(scene, frame, trace_closest(scene, p.origin, p.direction, time),
+                                   p.origin, p.direction, p.scramble, p.sample, p.depth);
     if (aov != nullptr) {
       const FirstHit f = first_hit<D>(scene, hit, p.origin, p.direction);
       const float record[] = {f.albedo.x, f.albedo.y, f.albedo.z, f.normal.x,
@@ -39,7 +40,7 @@ struct Tracer {
   /// What the integrators of the first surface say.
   Vec3 viewed(const PathState &p, const Hit &hit) {
     const Vertex v = view_vertex(scene, frame, p, hit);
-    return v.emitted + visible(v.shadow);
+    return v.emitted + visible(p, v.shadow);
   }
 
   /// Radiance leaving whatever was hit.
@@ -86,13 +87,14 @@ struct Tracer {
   template <int Kind>
   Vec3 direct(PathState p, const Material &m, const Surface &s, Vec3 wo) {
     p.throughput = {1, 1, 1};
-    return visible(direct_light<Kind, D>(scene, frame, p, m, s, wo));
+    return visible(p, direct_light<Kind, D>(scene, frame, p, m, s, wo));
   }
 
-  Vec3 visible(const ShadowRay &ray) {
+  Vec3 visible(const PathState &p, const ShadowRay &ray) {
     if (is_black(ray.contribution)) return {0, 0, 0};
     rays.shadow += 1;
-    if (trace_occluded(scene, ray.origin, ray.direction, ray.distance)) return {0, 0, 0};
+    const float time = path_time(scene, p.scramble, p.sample);
+    if (trace_occluded(scene, ray.origin, ray.direction, ray.distance, time)) return {0, 0, 0};
     return ray.contribution;
   }
 
@@ -113,7 +115,7 @@ struct Tracer {
       throughput = throughput * (1.0f / survival);
     }
     PathState next = p;
-    next.origin = spawn_origin(s, wi);
+    next.origin = scattered_origin<Kind, D>(s, wi);
     next.direction = normalize(wi);
     next.throughput = throughput;
     next.pdf = b.pdf;

@@ -91,13 +91,15 @@ RayRead read_ray(RTCRayN *ray, unsigned n, unsigned i) {
 struct Holes {
   const SceneView *scene = nullptr;
   int32 geometry = 0;  // record
+  float metres = 1;    // a unit of the geometry's Embree scene
 
-  bool let_pass(const RayRead &ray, unsigned primitive, int32 far_root) const {
+  bool let_pass(const RayRead &ray, unsigned primitive, int32 far_root, float u = 0) const {
     Hit hit = {};
+    hit.u = u;
     hit.geometry = geometry;
     hit.primitive = static_cast<int32>(primitive);
     hit.far_root = far_root;
-    return passes_through(*scene, hit, ray.origin, ray.direction, ray.id);
+    return passes_through(*scene, hit, ray.origin * metres, ray.direction * metres, ray.id);
   }
 };
 
@@ -110,6 +112,20 @@ void filter_holes(const RTCFilterFunctionNArguments *args) {
   }
 }
 
+void filter_curve_holes(const RTCFilterFunctionNArguments *args) {
+  const auto *holes = static_cast<const Holes *>(args->geometryUserPtr);
+  const unsigned n = args->N;
+  for (unsigned i = 0; i < n; ++i) {
+    if (args->valid[i] != -1) continue;
+    const RayRead ray = read_ray(args->ray, n, i);
+    const Vec3 normal = {RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i),
+                         RTCHitN_Ng_z(args->hit, n, i)};
+    const float u = curve_hit_u(*holes->scene, -1, 0, RTCHitN_u(args->hit, n, i), normal, ray.direction);
+    if (holes->let_pass(ray, RTCHitN_primID(args->hit, n, i), bits_from_float(u) < 0 ? 1 : 0, u))
+      args->valid[i] = 0;
+  }
+}
+
 // ---- spheres and disks ------------------------------------------------------------------------
 
 /// What the callbacks of one geometry need.
@@ -119,13 +135,17 @@ struct AnalyticShapes {
   Holes holes;                      // holes.scene is null where there are none
 
   ShapeHit intersect(unsigned id, const RayRead &ray, float t_min, float t_max) const {
-    ShapeHit hit = nearest(id, ray, t_min, t_max);
-    while (hit.t >= 0 && holes.scene != nullptr && holes.let_pass(ray, id, hit.far_root))
-      hit = nearest(id, ray, std::nextafter(hit.t, PHALANX_FAR), t_max);
-    return hit;
+    const ShapeHit hit = nearest(id, ray, t_min, t_max);
+    return holes.scene == nullptr ? hit : past_holes(hit, id, ray, t_max);
   }
 
  private:
+  [[gnu::noinline]] ShapeHit past_holes(ShapeHit hit, unsigned id, const RayRead &ray,
+                                        float t_max) const {
+    while (hit.t >= 0 && holes.let_pass(ray, id, hit.far_root))
+      hit = nearest(id, ray, std::nextafter(hit.t, PHALANX_FAR), t_max);
+    return hit;
+  }
   ShapeHit nearest(unsigned id, const RayRead &ray, float t_min, float t_max) const {
     if (spheres != nullptr)
       return intersect_sphere(ray.origin, ray.direction, spheres[id], t_min, t_max);
@@ -193,6 +213,110 @@ void analytic_occluded(const RTCOccludedFunctionNArguments *args) {
   }
 }
 
+// ---- scenes inside the scene ------------------------------------------------------------------
+
+/// A group that moves, or strands. Both are user geometry of one primitive which asks a scene of its own,
+/// one ray at a time, with the ray taken there by our arithmetic: Embree's own interpolation of
+/// transforms rounds otherwise in packets. Its curves hold for lengths around 1 only (it compares squared
+/// lengths with 1.2e-7), so strands are kept at such a scale.
+struct InnerScene {
+  RTCScene scene = nullptr;
+  const SceneView *view = nullptr;
+  int32 instance = -1;     // groups: index into SceneView::instances
+  float scale = 1;         // strands: metres to units of the inner scene, a power of two
+
+  bool is_group() const { return instance >= 0; }
+};
+
+/// Makes a typical segment 16 units long; a power of two, so that scaling does not round.
+float strand_scale(const Scene &scene, const int32 *first, size_t n) {
+  double sum = 0, reach = 0;
+  for (size_t i = 0; i < n; ++i) {
+    const float *const p = &scene.curve_points[4 * static_cast<size_t>(first[i])];
+    const Vec3 a = {p[0], p[1], p[2]}, b = {p[4], p[5], p[6]};
+    sum += static_cast<double>(length((b - a) * (1 / max_component(abs3(b - a))))) *
+           static_cast<double>(max_component(abs3(b - a)));
+    reach = std::max(reach, static_cast<double>(max_component(max3(abs3(a), abs3(b)))));
+  }
+  const double wanted = std::log2(16 * static_cast<double>(n) / sum);
+  return static_cast<float>(std::exp2(std::floor(std::min(wanted, 50 - std::log2(reach)))));
+}
+
+/// The box of a moving group when the shutter opens (step 0) and closes (1): points of the group move in
+/// straight lines, so the boxes between hold them between.
+void inner_bounds(const RTCBoundsFunctionArguments *args) {
+  const auto *inner = static_cast<const InnerScene *>(args->geometryUserPtr);
+  const float metres = 1 / inner->scale;
+  Affine place = {metres, 0, 0, 0, 0, metres, 0, 0, 0, 0, metres, 0};
+  if (inner->is_group())
+    place = args->timeStep == 0 ? inner->view->instances[inner->instance].to_world
+                                : inner->view->motions[inner->instance].to_world_end;
+  RTCBounds box;
+  rtcGetSceneBounds(inner->scene, &box);
+  Vec3 lo = {PHALANX_FAR, PHALANX_FAR, PHALANX_FAR}, hi = neg(lo);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p = {corner & 1 ? box.upper_x : box.lower_x, corner & 2 ? box.upper_y : box.lower_y,
+                    corner & 4 ? box.upper_z : box.lower_z};
+    const Vec3 q = transform_point(place, p), slack = transform_abs(place, abs3(p)) * 1e-5f;
+    lo = {min_of(lo.x, q.x - slack.x), min_of(lo.y, q.y - slack.y), min_of(lo.z, q.z - slack.z)};
+    hi = max3(hi, q + slack);
+  }
+  *args->bounds_o = {lo.x, lo.y, lo.z, 0, hi.x, hi.y, hi.z, 0};
+}
+
+/// Ray i of a packet as the inner scene sees it; distances along it are the same.
+RTCRay ray_inside(const InnerScene &inner, RTCRayN *rays, unsigned n, unsigned i) {
+  RTCRay ray = rtcGetRayFromRayN(rays, n, i);
+  Vec3 o = Vec3{ray.org_x, ray.org_y, ray.org_z} * inner.scale;
+  Vec3 d = Vec3{ray.dir_x, ray.dir_y, ray.dir_z} * inner.scale;
+  if (inner.is_group()) {
+    const Instance at = instance_at(*inner.view, inner.instance, ray.time);
+    o = transform_point(at.to_object, o);
+    d = transform_vector(at.to_object, d);
+  }
+  ray.org_x = o.x;
+  ray.org_y = o.y;
+  ray.org_z = o.z;
+  ray.dir_x = d.x;
+  ray.dir_y = d.y;
+  ray.dir_z = d.z;
+  return ray;
+}
+
+void inner_intersect(const RTCIntersectFunctionNArguments *args) {
+  const auto *inner = static_cast<const InnerScene *>(args->geometryUserPtr);
+  RTCRayN *rays = RTCRayHitN_RayN(args->rayhit, args->N);
+  RTCHitN *hits = RTCRayHitN_HitN(args->rayhit, args->N);
+  const unsigned outside = args->context->instID[0];
+  if (inner->is_group()) args->context->instID[0] = args->geomID;
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    RTCRayHit r;
+    r.ray = ray_inside(*inner, rays, args->N, i);
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    phalanx_intersect_inner(inner->scene, args->context, &r);
+    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
+    RTCRayN_tfar(rays, args->N, i) = r.ray.tfar;
+    r.hit.instID[0] = args->context->instID[0];
+    rtcCopyHitToHitN(hits, &r.hit, args->N, i);
+  }
+  args->context->instID[0] = outside;
+}
+
+void inner_occluded(const RTCOccludedFunctionNArguments *args) {
+  const auto *inner = static_cast<const InnerScene *>(args->geometryUserPtr);
+  const unsigned outside = args->context->instID[0];
+  if (inner->is_group()) args->context->instID[0] = args->geomID;
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    RTCRay ray = ray_inside(*inner, args->ray, args->N, i);
+    phalanx_occluded_inner(inner->scene, args->context, &ray);
+    if (ray.tfar < 0)
+      RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
+  }
+  args->context->instID[0] = outside;
+}
+
 }  // namespace
 
 // ---- building ---------------------------------------------------------------------------------
@@ -201,9 +325,12 @@ struct Accel::State {
   ErrorRecord error;
   std::atomic<std::int64_t> bytes = 0;
   RTCDevice device = nullptr;
-  std::vector<RTCScene> scenes;  // groups first, top level last
+  std::vector<RTCScene> scenes;  // all that are to be released
+  std::vector<RTCScene> groups;
+  RTCScene top = nullptr;
   std::vector<std::unique_ptr<AnalyticShapes>> analytic;
-  SceneView view = {};           // for opacity only
+  SceneView view = {};           // for opacity and motion
+  std::vector<std::unique_ptr<InnerScene>> inner;
   std::vector<std::unique_ptr<Holes>> holes;
 
   ~State() {
@@ -235,13 +362,15 @@ struct Accel::State {
     return {has_holes(m) ? &view : nullptr, g};
   }
 
-  void add_holes(RTCGeometry geometry, const Scene &scene, std::int32_t g) {
-    const Holes found = holes_of(scene, g);
+  void add_holes(RTCGeometry geometry, const Scene &scene, std::int32_t g, float scale) {
+    Holes found = holes_of(scene, g);
+    found.metres = 1 / scale;
     if (found.scene == nullptr) return;
     holes.push_back(std::make_unique<Holes>(found));
     rtcSetGeometryUserData(geometry, holes.back().get());
-    rtcSetGeometryIntersectFilterFunction(geometry, filter_holes);
-    rtcSetGeometryOccludedFilterFunction(geometry, filter_holes);
+    const bool curve = scene.geometries[g].shape == kCurves;
+    rtcSetGeometryIntersectFilterFunction(geometry, curve ? filter_curve_holes : filter_holes);
+    rtcSetGeometryOccludedFilterFunction(geometry, curve ? filter_curve_holes : filter_holes);
   }
 
   RTCGeometry mesh(const Scene &scene, std::int32_t g) {
@@ -277,6 +406,44 @@ struct Accel::State {
     return m;
   }
 
+  /// The segments first[0 .. n-1] at the scale of an inner scene.
+  RTCGeometry curves(const Scene &scene, const int32 *first, size_t n, float scale) {
+    RTCGeometry c = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+    const size_t first_point = static_cast<size_t>(first[0]);
+    const size_t num_points = static_cast<size_t>(first[n - 1]) + 2 - first_point;
+    auto *points = static_cast<float *>(rtcSetNewGeometryBuffer(
+        c, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), num_points));
+    auto *index = static_cast<unsigned *>(rtcSetNewGeometryBuffer(
+        c, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, sizeof(unsigned), n));
+    auto *flags = static_cast<unsigned char *>(
+        rtcSetNewGeometryBuffer(c, RTC_BUFFER_TYPE_FLAGS, 0, RTC_FORMAT_UCHAR, 1, n));
+    if (points == nullptr || index == nullptr || flags == nullptr) return c;
+    for (size_t i = 0; i < 4 * num_points; ++i)
+      points[i] = scene.curve_points[4 * first_point + i] * scale;
+    for (size_t i = 0; i < n; ++i) {
+      index[i] = static_cast<unsigned>(first[i]) - static_cast<unsigned>(first_point);
+      // Neighbours share a point.
+      const bool left = i > 0 && first[i] == first[i - 1] + 1;
+      const bool right = i + 1 < n && first[i + 1] == first[i] + 1;
+      flags[i] = static_cast<unsigned char>((left ? RTC_CURVE_FLAG_NEIGHBOR_LEFT : 0) |
+                                            (right ? RTC_CURVE_FLAG_NEIGHBOR_RIGHT : 0));
+    }
+    return c;
+  }
+
+  /// `id`: as which hits are reported, of the geometry around the strands, too.
+  RTCGeometry strands(const Scene &scene, std::int32_t g, unsigned id) {
+    const auto n = static_cast<size_t>(scene.num_prims[g]);
+    const int32 *const first = scene.curve_segments.data() + scene.geometries[g].first;
+    const float scale = strand_scale(scene, first, n);
+    RTCGeometry c = curves(scene, first, n, scale);
+    add_holes(c, scene, g, scale);
+    RTCScene s = new_scene();
+    attach(s, c, id);
+    rtcCommitScene(s);
+    return user_geometry({s, nullptr, -1, scale});
+  }
+
   RTCGeometry analytic_shapes(const Scene &scene, std::int32_t g) {
     const Geometry &record = scene.geometries[g];
     auto shapes = std::make_unique<AnalyticShapes>();
@@ -297,20 +464,40 @@ struct Accel::State {
     for (std::int32_t i = 0; i < range.count; ++i) {
       const std::int32_t g = range.first + i;
       const int shape = scene.geometries[g].shape;
-      RTCGeometry geometry = shape == kMesh    ? mesh(scene, g)
-                             : shape == kQuads ? quads(scene, g)
-                                               : analytic_shapes(scene, g);
-      if (shape == kMesh || shape == kQuads) add_holes(geometry, scene, g);
+      RTCGeometry geometry = shape == kMesh     ? mesh(scene, g)
+                             : shape == kQuads  ? quads(scene, g)
+                             : shape == kCurves ? strands(scene, g, static_cast<unsigned>(i))
+                                                : analytic_shapes(scene, g);
+      if (shape == kMesh || shape == kQuads) add_holes(geometry, scene, g, 1);
       attach(target, geometry, static_cast<unsigned>(i));
     }
   }
 
+  RTCGeometry resting_instance(RTCScene group, const Instance &from) {
+    RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, group);
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, &from.to_world);
+    return instance;
+  }
+
+  RTCGeometry user_geometry(const InnerScene &from) {
+    inner.push_back(std::make_unique<InnerScene>(from));
+    RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(g, 1);
+    if (from.is_group()) rtcSetGeometryTimeStepCount(g, 2);
+    rtcSetGeometryUserData(g, inner.back().get());
+    rtcSetGeometryBoundsFunction(g, inner_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(g, inner_intersect);
+    rtcSetGeometryOccludedFunction(g, inner_occluded);
+    return g;
+  }
+
   void attach_instances(RTCScene top, const Scene &scene) {
     for (size_t i = 0; i < scene.instances.size(); ++i) {
-      RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-      rtcSetGeometryInstancedScene(instance, scenes[static_cast<size_t>(scene.instance_group[i])]);
-      rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR,
-                              &scene.instances[i].to_world);
+      RTCScene group = groups[static_cast<size_t>(scene.instance_group[i])];
+      const bool moves = !scene.motions.empty() && scene.motions[i].moves != 0;
+      RTCGeometry instance =
+          moves ? user_geometry({group, &view, static_cast<int32>(i), 1}) : resting_instance(group, scene.instances[i]);
       attach(top, instance, static_cast<unsigned>(scene.top_level.count) + static_cast<unsigned>(i));
     }
   }
@@ -326,11 +513,12 @@ Accel::Accel(const Scene &scene, const std::string &isa, int threads)
   rtcSetDeviceMemoryMonitorFunction(state_->device, on_memory, &state_->bytes);
   for (const GeometryRange &group : scene.groups) {
     RTCScene s = state_->new_scene();
+    state_->groups.push_back(s);
     state_->attach_range(s, scene, group);
     rtcCommitScene(s);
     state_->check();
   }
-  RTCScene top = state_->new_scene();
+  RTCScene top = state_->top = state_->new_scene();
   state_->attach_range(top, scene, scene.top_level);
   state_->attach_instances(top, scene);
   rtcCommitScene(top);
@@ -339,7 +527,7 @@ Accel::Accel(const Scene &scene, const std::string &isa, int threads)
 
 Accel::~Accel() = default;
 
-void *Accel::handle() const { return state_->scenes.back(); }
+void *Accel::handle() const { return state_->top; }
 
 std::int64_t Accel::bytes() const { return state_->bytes; }
 
@@ -348,7 +536,7 @@ std::string Accel::library_version() { return "Embree " RTC_VERSION_STRING; }
 // ---- queries of one ray -----------------------------------------------------------------------
 
 namespace {
-void set_ray(RTCRay &r, Vec3 origin, Vec3 direction, float t_far, uint32 id) {
+void set_ray(RTCRay &r, Vec3 origin, Vec3 direction, float t_far, float time, uint32 id) {
   r.org_x = origin.x;
   r.org_y = origin.y;
   r.org_z = origin.z;
@@ -356,7 +544,7 @@ void set_ray(RTCRay &r, Vec3 origin, Vec3 direction, float t_far, uint32 id) {
   r.dir_x = direction.x;
   r.dir_y = direction.y;
   r.dir_z = direction.z;
-  r.time = 0;
+  r.time = time;
   r.tfar = t_far;
   r.mask = ~0u;
   r.id = id;
@@ -364,12 +552,12 @@ void set_ray(RTCRay &r, Vec3 origin, Vec3 direction, float t_far, uint32 id) {
 }
 }  // namespace
 
-extern "C" void phalanx_resolve_tie(void *accel, const float ray[6], float t, uint32 id,
+extern "C" void phalanx_resolve_tie(void *accel, const float ray[7], float t, uint32 id,
                                     int32 ids[3]) {
   RTCRayHit r;
   // A little further than the hit, so that all that share its distance are met.
   const float t_far = t * 1.000001f;
-  set_ray(r.ray, {ray[0], ray[1], ray[2]}, {ray[3], ray[4], ray[5]}, t_far, id);
+  set_ray(r.ray, {ray[0], ray[1], ray[2]}, {ray[3], ray[4], ray[5]}, t_far, ray[6], id);
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   TieContext tie;
@@ -382,9 +570,9 @@ extern "C" void phalanx_resolve_tie(void *accel, const float ray[6], float t, ui
   ids[2] = static_cast<int32>(tie.ids.instance);
 }
 
-Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction) {
+Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction, float time) {
   RTCRayHit r;
-  set_ray(r.ray, origin, direction, PHALANX_FAR, ray_id(scene, origin, direction));
+  set_ray(r.ray, origin, direction, PHALANX_FAR, time, ray_id(scene, origin, direction));
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   phalanx_intersect(scene.accel, &r, false);
@@ -395,8 +583,15 @@ Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction) {
   hit.material = 0;
   hit.far_root = scene.num_spheres > 0 && r.hit.u >= 0.5f ? 1 : 0;
   auto instance = static_cast<int32>(r.hit.instID[0]);
-  if (hit.geometry >= 0 && may_tie(r.hit.u, r.hit.v)) {
-    const float ray[] = {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z};
+  hit.time = time;
+  hit.u = 0;
+  const bool curve = hit.geometry >= 0 && hits_curve(scene, hit.geometry, instance);
+  if (curve)
+    hit.u = curve_hit_u(scene, instance, time, r.hit.u, {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z},
+                        direction);
+  if (hit.geometry >= 0 && !curve && may_tie(r.hit.u, r.hit.v)) {
+    const float ray[] = {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
+                         time};
     int32 ids[] = {hit.geometry, hit.primitive, instance};
     phalanx_resolve_tie(scene.accel, ray, r.ray.tfar, r.ray.id, ids);
     hit.geometry = ids[0];
@@ -410,9 +605,10 @@ Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction) {
   return hit;
 }
 
-bool trace_occluded(const SceneView &scene, Vec3 origin, Vec3 direction, float distance) {
+bool trace_occluded(const SceneView &scene, Vec3 origin, Vec3 direction, float distance,
+                    float time) {
   RTCRay r;
-  set_ray(r, origin, direction, distance, ray_id(scene, origin, direction));
+  set_ray(r, origin, direction, distance, time, ray_id(scene, origin, direction));
   phalanx_occluded(scene.accel, &r, false);
   return r.tfar < 0;
 }

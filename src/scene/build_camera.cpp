@@ -47,6 +47,13 @@ Camera build_camera(const CameraDescription &description, Diagnostics &diagnosti
     error("/aperture_radius", "must be 0 or more, and finite");
   if (!(focus > 0 && is_valid_coordinate(focus)))
     error("/focus_distance", "must be above 0 and finite, or 0 for the distance to look_at");
+  if (!(description.height > 0 && is_valid_coordinate(description.height)))
+    error("/height", "must be above 0 and finite");
+  if (!(description.angle > 0 && description.angle <= 360))
+    error("/angle", "must be above 0 and at most 360 degrees");
+  if (description.blades < 0 || description.blades == 1 || description.blades == 2)
+    error("/blades", "an iris has 3 blades or more, or 0 if it is round");
+  if (!std::isfinite(description.blade_rotation)) error("/blade_rotation", "must be finite");
 
   Camera camera = {};
   camera.position = to_vec3(from);
@@ -54,8 +61,15 @@ Camera build_camera(const CameraDescription &description, Diagnostics &diagnosti
   camera.right = to_vec3(right);
   camera.up = to_vec3(cross(right, forward));
   camera.tan_half_fov_y = static_cast<float>(std::tan(0.5 * description.fov * kDegree));
-  camera.lens_radius = static_cast<float>(description.aperture_radius);
+  if (description.kind == kPerspective)
+    camera.lens_radius = static_cast<float>(description.aperture_radius);
   camera.focus_distance = static_cast<float>(focus);
+  camera.kind = description.kind;
+  camera.half_height = static_cast<float>(0.5 * description.height);
+  camera.half_angle_turns = static_cast<float>(description.angle / 720);
+  camera.blades = description.blades;
+  const double turns = description.blade_rotation / 360;
+  camera.blade_turns = static_cast<float>(turns - std::floor(turns));
   return camera;
 }
 

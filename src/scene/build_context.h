@@ -13,6 +13,7 @@ struct GeometryBuilder::Context {
   bool mirrors;              // the transform exchanges left and right
   std::size_t first_vertex;  // vertices and normals in the scene before this shape
   std::size_t first_normal;
+  std::size_t first_uv, first_colour;
 };
 
 inline Vec3 to_vec3(const Double3 &v) {

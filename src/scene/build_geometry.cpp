@@ -10,12 +10,14 @@ namespace phalanx {
 using std::size_t;
 
 void GeometryBuilder::reserve(const SceneDescription &description) {
-  size_t positions = kPositionPadding, normals = 0, triangles = 0;
+  size_t positions = kPositionPadding, normals = 0, uvs = 0, colours = 0, triangles = 0;
   const auto count = [&](const std::vector<ShapeDescription> &shapes) {
     for (const ShapeDescription &shape : shapes)
       if (const auto *mesh = std::get_if<MeshShape>(&shape.shape)) {
         positions += mesh->data.positions.size();
         normals += mesh->data.normals.size();
+        uvs += mesh->data.uvs.size();
+        colours += mesh->data.colours.size();
         triangles += mesh->data.indices.size() / 3;
       }
   };
@@ -23,6 +25,8 @@ void GeometryBuilder::reserve(const SceneDescription &description) {
   for (const GroupDescription &group : description.groups) count(group.shapes);
   scene_.positions.reserve(positions);
   scene_.vertex_normals.reserve(normals);
+  scene_.vertex_uvs.reserve(uvs);
+  scene_.vertex_colours.reserve(colours);
   scene_.triangles.reserve(triangles);
 }
 
@@ -33,7 +37,9 @@ void GeometryBuilder::add(const ShapeDescription &shape, const Transform &transf
                            shape.material,
                            relative_determinant(transform) < 0,
                            scene_.positions.size() / 3,
-                           scene_.vertex_normals.size() / 3};
+                           scene_.vertex_normals.size() / 3,
+                           scene_.vertex_uvs.size() / 2,
+                           scene_.vertex_colours.size() / 3};
   if (shape.material < 0 || static_cast<size_t>(shape.material) >= scene_.materials.size())
     return error(context, "there is no material " + std::to_string(shape.material));
   if (!is_finite(transform)) return error(context, "the transform is not finite");
@@ -41,6 +47,7 @@ void GeometryBuilder::add(const ShapeDescription &shape, const Transform &transf
   if (const auto *quad = std::get_if<QuadShape>(&shape.shape)) add_quad(*quad, context);
   if (const auto *spheres = std::get_if<SpheresShape>(&shape.shape)) add_spheres(*spheres, context);
   if (const auto *disk = std::get_if<DiskShape>(&shape.shape)) add_disk(*disk, context);
+  if (const auto *curves = std::get_if<CurvesShape>(&shape.shape)) add_curves(*curves, context);
 }
 
 void GeometryBuilder::error(const Context &context, const std::string &message) const {
@@ -63,11 +70,19 @@ void GeometryBuilder::finish(const Context &context, ShapeKind kind, size_t firs
   geometry.kind = scene_.materials[static_cast<size_t>(context.material)].kind;
   geometry.first = static_cast<std::int32_t>(first);
   geometry.first_light = -1;
-  geometry.has_normals = scene_.vertex_normals.size() / 3 > context.first_normal ? 1 : 0;
-  if (geometry.has_normals != 0)
-    geometry.normal_offset =
-        static_cast<std::int32_t>(static_cast<std::int64_t>(context.first_normal) -
-                                  static_cast<std::int64_t>(context.first_vertex));
+  // An array that grew since the shape began holds data of its vertices.
+  const auto find_offset = [&](size_t first, size_t end, std::int32_t &has, std::int32_t &offset) {
+    if (end == first) return;
+    has = 1;
+    offset = static_cast<std::int32_t>(static_cast<std::int64_t>(first) -
+                                       static_cast<std::int64_t>(context.first_vertex));
+  };
+  find_offset(context.first_normal, scene_.vertex_normals.size() / 3, geometry.has_normals,
+              geometry.normal_offset);
+  find_offset(context.first_uv, scene_.vertex_uvs.size() / 2, geometry.has_uvs,
+              geometry.uv_offset);
+  find_offset(context.first_colour, scene_.vertex_colours.size() / 3, geometry.has_colours,
+              geometry.colour_offset);
   scene_.geometries.push_back(geometry);
   scene_.num_prims.push_back(static_cast<std::int32_t>(end - first));
   bounds_.push_back(bounds);

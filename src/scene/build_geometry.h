@@ -55,11 +55,13 @@ class GeometryBuilder {
   void add_quad(const QuadShape &shape, const Context &context);
   void add_spheres(const SpheresShape &shape, const Context &context);
   void add_disk(const DiskShape &shape, const Context &context);
+  void add_curves(const CurvesShape &shape, const Context &context);
 
   bool check_mesh(const MeshData &data, const Context &context) const;
   bool bake_positions(const MeshData &data, const Context &context);
   Bounds bake_triangles(const MeshData &data, const Context &context);
   void bake_normals(const MeshData &data, const Context &context);
+  void add_vertex_data(const MeshData &data);
 
   void error(const Context &context, const std::string &message) const;
   void drop(const Context &context, std::int64_t count, const std::string &what);

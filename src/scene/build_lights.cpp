@@ -6,6 +6,9 @@
 
 #include "alias_table.h"
 #include "build_materials.h"
+#include "light_power.h"
+#include "light_tree_build.h"
+#include "source_lights.h"
 #include "transform.h"
 
 namespace phalanx {
@@ -45,7 +48,7 @@ Light triangle_light(const Scene &scene, const Triangle &t) {
     return Vec3{p[0], p[1], p[2]};
   };
   const Vec3 p = at(t.v0), q = at(t.v1), r = at(t.v2);
-  Light light = {};
+  Light light = blank_light();
   light.kind = kTriangleLight;
   set_plane(light, p, q - p, r - p, 0.5);
   light.error = point_error(
@@ -54,7 +57,7 @@ Light triangle_light(const Scene &scene, const Triangle &t) {
 }
 
 Light quad_light(const Quad &quad) {
-  Light light = {};
+  Light light = blank_light();
   light.kind = kQuadLight;
   set_plane(light, quad.corner, quad.edge_u, quad.edge_v, 1.0);
   double largest = 0;
@@ -72,7 +75,7 @@ float round_error(Vec3 center, double radius) {
 }
 
 Light disk_light(const Disk &disk) {
-  Light light = {};
+  Light light = blank_light();
   light.kind = kDiskLight;
   set_plane(light, disk.center, disk.axis_u, disk.axis_v, kPi);
   light.error = round_error(disk.center, length(to_double3(disk.axis_u)));
@@ -80,7 +83,7 @@ Light disk_light(const Disk &disk) {
 }
 
 Light sphere_light(const Sphere &sphere) {
-  Light light = {};
+  Light light = blank_light();
   light.kind = kSphereLight;
   light.p = sphere.center;
   light.radius = sphere.radius;
@@ -104,25 +107,42 @@ Light primitive_light(const Scene &scene, const Geometry &geometry, std::int32_t
   }
 }
 
-/// Power but for a factor that all lights share; at least kMinLightShare of the mean.
-std::vector<double> selection_weights(const Scene &scene) {
-  std::vector<double> weights;
-  weights.reserve(scene.lights.size());
-  for (const Light &light : scene.lights) {
-    Material emitter = {};
-    emitter.emission = light.emission;
-    weights.push_back(emitted_luminance(emitter) * static_cast<double>(light.area) *
-                      (light.two_sided != 0 ? 2.0 : 1.0));
+/// Texture coordinates and colours of a triangle's point, as at a hit (kernels/physics/surface.h).
+void set_triangle_texture(const Scene &scene, const Geometry &geometry, const Triangle &t,
+                          Light &light) {
+  light.uv_a = {1, 0};
+  light.uv_b = {0, 1};
+  light.colour = {1, 1, 1};
+  if (geometry.has_uvs != 0) {
+    const auto at = [&](std::int32_t v) {
+      const float *const p = &scene.vertex_uvs[static_cast<size_t>(v + geometry.uv_offset) * 2];
+      return Vec2{p[0], p[1]};
+    };
+    const Vec2 p = at(t.v0), q = at(t.v1), r = at(t.v2);
+    light.uv = p;
+    light.uv_a = {q.x - p.x, q.y - p.y};
+    light.uv_b = {r.x - p.x, r.y - p.y};
   }
-  const double mean = std::accumulate(weights.begin(), weights.end(), 0.0) /
-                      static_cast<double>(std::max<size_t>(weights.size(), 1));
-  for (double &weight : weights) weight = std::max(weight, mean * kMinLightShare);
-  return weights;
+  if (geometry.has_colours != 0) {
+    const auto at = [&](std::int32_t v) {
+      const float *const p =
+          &scene.vertex_colours[static_cast<size_t>(v + geometry.colour_offset) * 3];
+      return Vec3{p[0], p[1], p[2]};
+    };
+    light.colour = at(t.v0);
+    light.colour_a = at(t.v1) - light.colour;
+    light.colour_b = at(t.v2) - light.colour;
+  }
 }
 
-}  // namespace
+void set_emission(const Material &material, Light &light) {
+  light.emission = material.emission * material.opacity;
+  light.two_sided = material.two_sided;
+  light.emission_texture = material.emission_texture;
+  light.opacity_texture = material.opacity_texture;
+}
 
-void build_lights(Scene &scene) {
+void add_area_lights(Scene &scene) {
   const auto emits = [&](size_t g) {
     return emitted_luminance(scene.materials[static_cast<size_t>(scene.geometries[g].material)]) >
            0;
@@ -138,21 +158,83 @@ void build_lights(Scene &scene) {
     geometry.first_light = static_cast<std::int32_t>(scene.lights.size());
     for (std::int32_t i = 0; i < scene.num_prims[g]; ++i) {
       Light light = primitive_light(scene, geometry, i);
-      light.emission = material.emission;
-      light.two_sided = material.two_sided;
+      if (geometry.shape == kMesh)
+        set_triangle_texture(scene, geometry,
+                             scene.triangles[static_cast<size_t>(geometry.first + i)], light);
+      set_emission(material, light);
       scene.lights.push_back(light);
     }
   }
-  AliasTable table = make_alias_table(selection_weights(scene));
-  for (size_t i = 0; i < scene.lights.size(); ++i)
-    scene.lights[i].select_pdf = static_cast<float>(table.probability[i]);
-  scene.alias_threshold = std::move(table.threshold);
-  scene.alias_other = std::move(table.other);
+}
+
+/// Triangles and rectangles are; other parallelograms are not.
+void sample_by_solid_angle(std::vector<Light> &lights) {
+  constexpr double kSquare = 1e-5;  // largest cosine of a right angle
+  for (Light &light : lights) {
+    const Double3 a = to_double3(light.a), b = to_double3(light.b);
+    const bool is_rectangle =
+        light.kind == kQuadLight && std::fabs(dot(a, b)) <= kSquare * length(a) * length(b);
+    light.by_solid_angle = is_rectangle || light.kind == kTriangleLight ? 1 : 0;
+  }
+}
+
+/// One table over the lights from `first` on.
+void choose_by_table(Scene &scene, const std::vector<double> &weights, size_t first, double share) {
+  AliasTable table = make_alias_table({weights.begin() + static_cast<std::ptrdiff_t>(first), weights.end()});
+  scene.alias_threshold.assign(first, 1.0f);
+  scene.alias_other.assign(first, 0);
+  for (size_t i = 0; i < table.probability.size(); ++i) {
+    scene.lights[first + i].select_pdf = static_cast<float>(share * table.probability[i]);
+    scene.alias_threshold.push_back(table.threshold[i]);
+    scene.alias_other.push_back(table.other[i] + static_cast<std::int32_t>(first));
+  }
+}
+
+/// The tree for lights at finite distance, a table for the others. Which of the two is a matter of power,
+/// but neither is forgotten: what is near or unshadowed may be the weaker.
+void choose_by_tree(Scene &scene, const std::vector<double> &weights) {
+  constexpr double kLeastShare = 0.1;
+  const auto num_infinite = static_cast<size_t>(scene.num_infinite_lights);
+  const size_t num_finite = scene.lights.size() - num_infinite;
+  const auto border = weights.begin() + static_cast<std::ptrdiff_t>(num_finite);
+  const double finite = std::accumulate(weights.begin(), border, 0.0);
+  const double infinite = std::accumulate(border, weights.end(), 0.0);
+  const double share =
+      num_infinite == 0 ? 0 : std::clamp(infinite / (finite + infinite), kLeastShare, 1 - kLeastShare);
+  scene.infinite_share = static_cast<float>(share);
+  choose_by_table(scene, weights, num_finite, static_cast<double>(scene.infinite_share));
+  scene.light_nodes = build_light_tree(scene.lights, {weights.begin(), border});
+  for (size_t i = 0; i < num_finite; ++i)  // informative only
+    scene.lights[i].select_pdf = static_cast<float>((1 - share) * weights[i] / finite);
+}
+
+bool wants_tree(LightChoice choice, size_t num_finite) {
+  if (choice == LightChoice::kTree) return num_finite > 1;
+  return choice == LightChoice::kAuto && num_finite > kMaxLightsByPower;
+}
+
+}  // namespace
+
+void build_lights(Scene &scene, const SceneDescription &description, Diagnostics &diagnostics) {
+  add_area_lights(scene);
+  add_point_lights(description, scene, diagnostics);
+  const size_t num_finite = scene.lights.size();
+  const std::vector<double> infinite = add_infinite_lights(description, scene, diagnostics);
+  if (description.integrator.light_points == LightPoints::kSolidAngle)
+    sample_by_solid_angle(scene.lights);
+  std::vector<double> weights = light_powers(scene, infinite);
+  const LightChoice choice = description.integrator.light_choice;
+  if (wants_tree(choice, num_finite)) return choose_by_tree(scene, weights);
+  if (choice == LightChoice::kUniform) weights.assign(weights.size(), 1.0);
+  choose_by_table(scene, weights, 0, 1);
 }
 
 bool has_rich_lights(const Scene &scene) {
-  return std::any_of(scene.lights.begin(), scene.lights.end(),
-                     [](const Light &light) { return light.kind >= kPointLight; });
+  if (!scene.light_nodes.empty()) return true;
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light &light) {
+    return light.kind > kDiskLight || light.by_solid_angle != 0 || light.emission_texture >= 0 ||
+           light.opacity_texture >= 0;
+  });
 }
 
 }  // namespace phalanx

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "albedo_tables.h"
+#include "build_textures.h"
 
 namespace phalanx {
 namespace {
@@ -83,11 +84,44 @@ void set_metal(const MaterialDescription &from, Material &material) {
   }
 }
 
+void set_principled(const MaterialDescription &from, Material &material) {
+  material.specular_level = static_cast<float>(from.specular_level);
+  material.metallic = static_cast<float>(from.metallic);
+  material.transmission = static_cast<float>(from.transmission);
+  material.clearcoat = static_cast<float>(from.clearcoat);
+  material.clearcoat_alpha = rough_alpha(from.clearcoat_roughness);
+  material.sheen = to_vec3(from.sheen);
+  material.sheen_alpha = rough_alpha(from.sheen_roughness);
+}
+
+/// Absorption of hair per radius from its colour, and back: Chiang et al. 2016, eq. 9.
+double absorption_divisor(double azimuthal_roughness) {
+  const double b = azimuthal_roughness;
+  return 5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))));
+}
+
+void set_hair(const MaterialDescription &from, Material &material) {
+  constexpr double kBlackest = 1e-6;
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  const double divisor = absorption_divisor(from.azimuthal_roughness);
+  Double3 colour = from.reflectance, absorption = from.absorption;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (from.has_absorption)
+      colour[i] = std::exp(-divisor * std::sqrt(absorption[i]));
+    else
+      absorption[i] = std::pow(std::log(std::max(colour[i], kBlackest)) / divisor, 2);
+  material.reflectance = to_vec3(colour);
+  material.transmittance = to_vec3(absorption);
+  material.alpha = static_cast<float>(from.azimuthal_roughness);
+  material.tilt = static_cast<float>(std::sin(from.tilt * kDegree));
+}
+
 void set_table(AlbedoTables &tables, Material &material) {
   const float x = material.alpha_x, y = material.alpha_y;
   if (material.kind == kCoated) material.table = tables.dielectric(material.ior);
   if (material.kind == kGlossyConductor && material.compensate != 0)
     material.table = x == y ? tables.microfacets() : tables.microfacets(x, y);
+  if (material.kind == kPrincipled) material.table = tables.principled();
 }
 
 Material build_material(const MaterialDescription &from, AlbedoTables &tables,
@@ -104,8 +138,17 @@ Material build_material(const MaterialDescription &from, AlbedoTables &tables,
   material.compensate = from.multiple_scattering ? 1 : 0;
   if (is_valid_emission(from.emission)) material.emission = to_vec3(from.emission);
   material.two_sided = from.two_sided ? 1 : 0;
+  material.one_sided = from.one_sided ? 1 : 0;
+  material.exponent = static_cast<float>(from.exponent);
+  material.blend_a = from.blend_a;
+  material.blend_b = from.blend_b;
+  material.weight = static_cast<float>(from.weight);
+  material.opacity = static_cast<float>(from.opacity);
+  set_textures(from, material);
   set_roughness(from, material);
   set_metal(from, material);
+  if (from.kind == kPrincipled) set_principled(from, material);
+  if (from.kind == kHair) set_hair(from, material);
   set_table(tables, material);
   if (from.kind == kConductor && material.kind == kMirror)
     notes.push_back("material '" + from.name + "' is smoother than roughness 0.0316: a mirror");

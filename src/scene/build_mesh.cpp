@@ -79,6 +79,7 @@ void GeometryBuilder::add_mesh(const MeshShape &shape, const Context &context) {
     return;
   }
   if (!data.normals.empty()) bake_normals(data, context);
+  add_vertex_data(data);
   finish(context, kMesh, first, scene_.triangles.size(), bounds);
 }
 
@@ -90,6 +91,11 @@ bool GeometryBuilder::check_mesh(const MeshData &data, const Context &context) c
   if (!data.normals.empty() && data.normals.size() != data.positions.size())
     problem = "the mesh has " + std::to_string(num_vertices) + " vertices but " +
               std::to_string(data.normals.size() / 3) + " normals";
+  if ((!data.uvs.empty() && data.uvs.size() != num_vertices * 2) ||
+      (!data.colours.empty() && data.colours.size() != num_vertices * 3))
+    problem = "the mesh has " + std::to_string(num_vertices) + " vertices but " +
+              std::to_string(data.uvs.size() / 2) + " uvs and " +
+              std::to_string(data.colours.size() / 3) + " colours";
   if (static_cast<std::int64_t>(context.first_vertex + num_vertices) > kMaxElements ||
       static_cast<std::int64_t>(scene_.triangles.size() + data.indices.size() / 3) > kMaxElements)
     problem = "with this mesh the scene has more than " + std::to_string(kMaxElements) +
@@ -119,6 +125,12 @@ bool GeometryBuilder::bake_positions(const MeshData &data, const Context &contex
     for (size_t axis = 0; axis < 3; ++axis) positions[i + axis] = static_cast<float>(p[axis]);
   }
   return true;
+}
+
+void GeometryBuilder::add_vertex_data(const MeshData &data) {
+  scene_.vertex_uvs.insert(scene_.vertex_uvs.end(), data.uvs.begin(), data.uvs.end());
+  scene_.vertex_colours.insert(scene_.vertex_colours.end(), data.colours.begin(),
+                               data.colours.end());
 }
 
 /// Returns the bounds of the triangles that were kept.

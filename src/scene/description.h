@@ -29,6 +29,11 @@ struct CameraDescription {
   double fov = 45;              // full vertical angle, degrees, in (0, 180)
   double aperture_radius = 0;   // metres; 0 is a pinhole
   double focus_distance = 0;    // metres; 0 means |look_at - position|
+  CameraKind kind = kPerspective;
+  int blades = 0;               // of the iris; 0: round
+  double blade_rotation = 0;    // degrees, counter-clockwise in the picture's right and up
+  double height = 2;            // orthographic: of the picture, metres
+  double angle = 180;           // fisheye: over the picture's height, degrees, in (0, 360]
 };
 
 struct FilmDescription {
@@ -97,6 +102,21 @@ struct MaterialDescription {
   double ior = 1.5;                       // dielectric, coat
   Double3 specular = {1, 1, 1};           // tint of reflection: dielectrics, coats
   Double3 transmittance = {1, 1, 1};      // tint of transmission: dielectrics
+  double exponent = 10;                   // phong, blinn_phong
+  // hair: absorption per radius instead of reflectance; tilt of its scales, degrees
+  bool has_absorption = false;
+  Double3 absorption = {0, 0, 0};
+  double azimuthal_roughness = 0, tilt = 2;
+  // principled
+  double specular_level = 1, metallic = 0, transmission = 0;
+  double clearcoat = 0, clearcoat_roughness = 0;
+  Double3 sheen = {0, 0, 0};
+  double sheen_roughness = 0.5;
+  // kBlend: indices into materials; b with probability weight, else a
+  std::int32_t blend_a = -1, blend_b = -1;
+  double weight = 0.5;
+  bool is_null = false;                   // light passes as if there were no surface
+  bool one_sided = false;                 // scattering: the back absorbs
   Double3 emission = {0, 0, 0};           // times the texture, if there is one
   bool two_sided = false;                 // emission on both sides
   double opacity = 1;                     // in [0, 1]
@@ -104,6 +124,10 @@ struct MaterialDescription {
   double bump_scale = 0.01;               // metres from black to white of the bump map
   MaterialTextures textures;
 };
+
+inline bool is_blend(const MaterialDescription &material) {
+  return static_cast<int>(material.kind) == kBlend;
+}
 
 // ---- shapes -----------------------------------------------------------------------------------
 
@@ -136,12 +160,21 @@ struct DiskShape {
   Double3 center, normal;
   double radius = 1;
 };
+/// Strands of hair: polylines, each with a radius that changes from point to point.
+struct CurvesShape {
+  std::vector<std::array<double, 4>> points;  // x, y, z, radius; strand after strand
+  std::vector<std::int32_t> sizes;            // points of each strand, at least 2
+
+  void add(const std::vector<std::array<double, 4>> &strand);
+};
+
+using ShapeGeometry = std::variant<MeshShape, QuadShape, SpheresShape, DiskShape, CurvesShape>;
 
 struct ShapeDescription {
   std::string origin;                   // for messages: "scene.json: /shapes/3"
   std::int32_t material = 0;            // index into materials
   Transform transform;
-  std::variant<MeshShape, QuadShape, SpheresShape, DiskShape> shape;
+  ShapeGeometry shape;
 };
 
 /// Shapes that instances place.
@@ -151,8 +184,9 @@ struct GroupDescription {
 };
 struct InstanceDescription {
   std::int32_t group = 0;               // index into groups
-  Transform transform;
+  Transform transform;                  // when the shutter opens
   std::string origin;
+  std::optional<Transform> transform_end;  // when it closes, if it moves
 };
 
 // ---- lights that are no surfaces ----------------------------------------------------------------

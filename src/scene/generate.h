@@ -1,4 +1,4 @@
-// Meshes and spheres made by a formula: benches reach 10^7 triangles without a file.
+// Meshes, spheres and hair made by a formula: benches reach 10^7 triangles without a file.
 //
 // Every generator gives the same bits on every machine: double arithmetic of + - * / and sqrt only
 // (own sine, own hash-based noise), rounded to float once. Triangles are counter-clockwise seen
@@ -54,6 +54,21 @@ std::vector<std::array<double, 4>> generate_sphere_flake(double radius, int leve
 /// Icosahedron whose triangles are split in four `subdivisions` times and put onto the sphere.
 /// Triangles: 20 * 4^subdivisions (9: 5,242,880). Smooth normals. radius > 0, subdivisions in 0..9.
 MeshData generate_icosphere(double radius, int subdivisions);
+
+/// Hair on the sphere around `center`: strands that start on it, at random places, along its normal.
+struct Fur {
+  Double3 center = {0, 0, 0};
+  double radius = 1;                           // of the sphere, > 0
+  int count = 10000;                           // strands
+  double length = 0.3;                         // mean of a strand; single ones differ by up to 20 %
+  std::array<double, 2> thickness = {1e-3, 1e-4};  // at root and tip, > 0
+  double bend = 0.5;                           // 0: straight out, 1: tips along the sphere, downwards (-y)
+  double curl = 0;                             // radius of two turns at the tip, as part of the length
+  double spread = 0.2;                         // random part of the directions, 0: none
+  int segments = 8;                            // of a strand
+  int seed = 0;
+};
+CurvesShape generate_fur(const Fur &fur);
 
 /// Box between two corners (any order), 12 triangles, flat.
 MeshData generate_box(Double3 lo, Double3 hi);

@@ -72,8 +72,8 @@ bool is_mesh_file(const std::string &path) {
 }
 
 MeshData read_mesh_file(const std::string &path, const std::string &shape_origin,
-                        Diagnostics &diagnostics) {
-  const MeshSource source{path, shape_origin, diagnostics};
+                        Diagnostics &diagnostics, MeshNeeds needs) {
+  const MeshSource source{path, shape_origin, diagnostics, needs};
   if (!is_mesh_file(path))
     return source.fail(0, "unknown kind of mesh file: expected .obj or .ply");
   std::string reason;

@@ -12,12 +12,14 @@
 namespace phalanx {
 
 /// Reads the mesh in `path`, .obj or .ply by extension, upper or lower case. Polygons are split
-/// into triangles (polygon.h). Normals are kept if every corner has one; a vertex that corners use
-/// with several normals is repeated. Lines, points, materials and texture coordinates are ignored.
+/// into triangles (polygon.h). Normals are kept if every corner has one, texture coordinates and
+/// colours if, besides, `needs` asks for them; a vertex that corners use with several normals or
+/// coordinates is repeated. PLY colours of whole numbers are decoded from sRGB. Lines, points and
+/// materials are ignored.
 /// `shape_origin` ("scene.json: /shapes/3") says in messages who wanted the file.
 /// After an error the returned mesh is empty.
 MeshData read_mesh_file(const std::string &path, const std::string &shape_origin,
-                        Diagnostics &diagnostics);
+                        Diagnostics &diagnostics, MeshNeeds needs = {});
 
 /// True if the extension of `path` is one that read_mesh_file() knows.
 bool is_mesh_file(const std::string &path);

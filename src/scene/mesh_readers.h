@@ -13,6 +13,7 @@ struct MeshSource {
   const std::string &path;
   const std::string &shape_origin;
   Diagnostics &diagnostics;
+  MeshNeeds needs = {};
 
   void warn(int line, const std::string &message) const;
   /// Reports the error and returns the empty mesh that the reader then returns.

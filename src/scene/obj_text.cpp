@@ -35,13 +35,13 @@ struct Line {
   void blank() { std::fill(begin, end, ' '); }
 };
 
-/// Three numbers; what follows (w, a colour) is blanked.
-bool check_numbers(Line &line, const std::string &what, std::string &error) {
-  for (int i = 0; i < 3; ++i) {
+/// `count` numbers; what follows (w, a colour) is blanked.
+bool check_numbers(Line &line, int count, const std::string &what, std::string &error) {
+  for (int i = 0; i < count; ++i) {
     const std::string_view token = line.next();
     double value = 0;
     if (token.empty() || token[0] == '#') {
-      error = what + ": " + std::to_string(i) + " numbers, expected 3";
+      error = what + ": " + std::to_string(i) + " numbers, expected " + std::to_string(count);
       return false;
     }
     switch (parse_number(token, value)) {
@@ -127,15 +127,20 @@ char *end_of_line(char *begin, char *text_end, int &num_joined) {
 }
 
 /// False on error.
-bool check_line(Line line, int line_number, ObjText &found) {
+bool check_line(Line line, int line_number, bool with_uvs, ObjText &found) {
   const std::string_view keyword = line.next();
   if (keyword == "v") {
     ++found.num_vertices;
-    return check_numbers(line, "vertex " + std::to_string(found.num_vertices), found.error);
+    return check_numbers(line, 3, "vertex " + std::to_string(found.num_vertices), found.error);
   }
   if (keyword == "vn") {
     ++found.num_normals;
-    return check_numbers(line, "normal " + std::to_string(found.num_normals), found.error);
+    return check_numbers(line, 3, "normal " + std::to_string(found.num_normals), found.error);
+  }
+  if (keyword == "vt" && with_uvs) {
+    ++found.num_uvs;
+    return check_numbers(line, 2, "texture coordinate " + std::to_string(found.num_uvs),
+                         found.error);
   }
   if (keyword == "f") {
     const size_t number = found.face_lines.size() + found.small_face_lines.size() + 1;
@@ -153,7 +158,7 @@ bool check_line(Line line, int line_number, ObjText &found) {
 
 }  // namespace
 
-ObjText check_obj_text(std::string &text) {
+ObjText check_obj_text(std::string &text, bool with_uvs) {
   ObjText found;
   if (text.find('\0') != std::string::npos) {
     found.error = "not a text file: it contains a zero byte";
@@ -165,7 +170,7 @@ ObjText check_obj_text(std::string &text) {
   for (int line_number = 1; at < end; ++line_number) {
     int num_joined = 0;
     char *const line_end = end_of_line(at, end, num_joined);
-    if (!check_line({at, line_end, at}, line_number, found)) {
+    if (!check_line({at, line_end, at}, line_number, with_uvs, found)) {
       found.error_line = line_number;
       return found;
     }

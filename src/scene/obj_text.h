@@ -13,16 +13,16 @@ namespace phalanx {
 /// What check_obj_text() found.
 struct ObjText {
   std::vector<std::int32_t> face_lines;  // [num_faces] line of each face that was left
-  std::int64_t num_vertices = 0, num_normals = 0;
+  std::int64_t num_vertices = 0, num_normals = 0, num_uvs = 0;
   std::vector<std::int32_t> small_face_lines;  // of faces with fewer than three corners; blanked
   int error_line = 0;
   std::string error;  // empty: the text can be parsed
 };
 
-/// Checks numbers and indices of v, vn and f lines, and changes `text` in place, keeping its size:
-/// only v, vn and f lines remain, continuation lines are joined, corners have no empty trailing
-/// index, v and vn have three numbers. Stops at the first error.
+/// Checks numbers and indices of v, vn, f and, `with_uvs`, vt lines, and changes `text` in place,
+/// keeping its size: only these lines remain, continuation lines are joined, corners have no empty
+/// trailing index, v and vn have three numbers, vt two. Stops at the first error.
 /// Indices are checked for form, not for range: faces may come before their vertices.
-ObjText check_obj_text(std::string &text);
+ObjText check_obj_text(std::string &text, bool with_uvs = false);
 
 }  // namespace phalanx

@@ -26,6 +26,7 @@ class ObjectReader {
   /// No error was reported since this reader was made; after finish(): the object is good.
   bool ok() const { return source_.num_errors() == errors_before_; }
   const Node &node() const { return node_; }
+  Source &source() { return source_; }
 
   /// The member called `key`, which becomes known.
   std::optional<Node> find(std::string_view key, Presence presence = kOptional);

@@ -1,17 +1,28 @@
-// Stanford PLY: text or binary of either byte order. Takes x, y, z and, if all three are there,
-// nx, ny, nz of "vertex", and the polygons of "face"; steps over everything else.
+// Stanford PLY: text or binary of either byte order. Takes x, y, z of "vertex" and, where all of them are
+// there, nx, ny, nz and what else is needed: texture coordinates, red, green, blue; and the polygons of
+// "face". Steps over everything else.
 #include <cmath>
 #include <limits>
 
+#include "../core/srgb.h"
 #include "mesh_readers.h"
 #include "ply_header.h"
 #include "ply_numbers.h"
 #include "polygon.h"
+#include "value_checks.h"
 
 namespace phalanx {
 namespace {
 
 using std::size_t;
+
+/// What a property is a component of.
+enum class PlyTarget { kNone, kPosition, kNormal, kUv, kColour };
+struct PlyComponent {
+  PlyTarget target = PlyTarget::kNone;
+  int component = 0;
+};
+using Columns = std::vector<PlyComponent>;  // one a property
 
 /// Functions return false on an error: those of a row leave it in `problem` or `numbers`, those of
 /// an element have reported it.
@@ -26,7 +37,7 @@ struct PlyReader {
 
   bool skip_property(const PlyProperty &property);
   bool skip_element(const PlyElement &element);
-  bool read_vertex(const PlyElement &element, const std::vector<int> &target, std::int64_t row);
+  bool read_vertex(const PlyElement &element, const Columns &columns, std::int64_t row);
   bool read_vertices(const PlyElement &element);
   void add_face(const std::vector<std::int32_t> &corners, std::vector<std::int32_t> &triangles);
   bool read_face(const PlyElement &element, int list, std::vector<std::int32_t> &corners);
@@ -73,27 +84,45 @@ bool PlyReader::skip_element(const PlyElement &element) {
   return true;
 }
 
-/// Which property goes where: target[i] is 0..2 for x, y, z, 3..5 for nx, ny, nz, else -1.
-/// Returns the name of the coordinate that is missing, or nullptr.
-const char *find_targets(const PlyElement &element, std::vector<int> &target, bool &has_normals) {
-  static const char *const kNames[6] = {"x", "y", "z", "nx", "ny", "nz"};
-  const auto find = [&](int i) {
-    const int column = element.find(kNames[i]);
+/// The properties `names` become the components of `target`, unless one of them is missing; then its
+/// name is returned.
+const char *assign(const PlyElement &element, std::initializer_list<const char *> names,
+                   PlyTarget target, Columns &columns) {
+  const auto find = [&](const char *name) {
+    const int column = element.find(name);
     return column >= 0 && element.properties[static_cast<size_t>(column)].is_list ? -1 : column;
   };
-  for (int i = 0; i < 3; ++i)
-    if (find(i) < 0) return kNames[i];
-  has_normals = find(3) >= 0 && find(4) >= 0 && find(5) >= 0;
-  target.assign(element.properties.size(), -1);
-  for (int i = 0; i < (has_normals ? 6 : 3); ++i) target[static_cast<size_t>(find(i))] = i;
+  for (const char *name : names)
+    if (find(name) < 0) return name;
+  int component = 0;
+  for (const char *name : names) columns[static_cast<size_t>(find(name))] = {target, component++};
   return nullptr;
 }
 
-bool PlyReader::read_vertex(const PlyElement &element, const std::vector<int> &target,
-                            std::int64_t row) {
+/// The names that programs give to texture coordinates.
+bool assign_uvs(const PlyElement &element, Columns &columns) {
+  return !assign(element, {"u", "v"}, PlyTarget::kUv, columns) ||
+         !assign(element, {"s", "t"}, PlyTarget::kUv, columns) ||
+         !assign(element, {"texture_u", "texture_v"}, PlyTarget::kUv, columns) ||
+         !assign(element, {"texture_s", "texture_t"}, PlyTarget::kUv, columns);
+}
+
+/// Colours of whole numbers are fractions of the largest, in sRGB; others are linear.
+double linear_colour(PlyType type, double value) {
+  switch (type) {
+    case PlyType::kUint8:
+      return linear_from_srgb(value / 255);
+    case PlyType::kUint16:
+      return linear_from_srgb(value / 65535);
+    default:
+      return value;
+  }
+}
+
+bool PlyReader::read_vertex(const PlyElement &element, const Columns &columns, std::int64_t row) {
   for (size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty &property = element.properties[i];
-    if (target[i] < 0) {
+    if (columns[i].target == PlyTarget::kNone) {
       if (!skip_property(property)) return false;
       continue;
     }
@@ -101,24 +130,38 @@ bool PlyReader::read_vertex(const PlyElement &element, const std::vector<int> &t
     if (!numbers.next(property.type, value)) return false;
     if (!(std::fabs(value) <= static_cast<double>(std::numeric_limits<float>::max())))
       return fail(property.name + " is not a finite 32-bit number");
-    auto &values = target[i] < 3 ? mesh.positions : mesh.normals;
-    values[static_cast<size_t>(row * 3 + target[i] % 3)] = static_cast<float>(value);
+    const PlyTarget target = columns[i].target;
+    if (target == PlyTarget::kColour) value = linear_colour(property.type, value);
+    if (target == PlyTarget::kColour && !(value >= 0 && value <= kMaxRadiance))
+      return fail(property.name + " is negative or too large");
+    auto &values = target == PlyTarget::kPosition ? mesh.positions
+                   : target == PlyTarget::kNormal ? mesh.normals
+                   : target == PlyTarget::kUv     ? mesh.uvs
+                                                  : mesh.colours;
+    const int size = target == PlyTarget::kUv ? 2 : 3;
+    values[static_cast<size_t>(row * size + columns[i].component)] = static_cast<float>(value);
   }
   return true;
 }
 
 bool PlyReader::read_vertices(const PlyElement &element) {
-  std::vector<int> target;
-  bool has_normals = false;
-  if (const char *missing = find_targets(element, target, has_normals))
+  Columns columns(element.properties.size());
+  if (const char *missing = assign(element, {"x", "y", "z"}, PlyTarget::kPosition, columns))
     return element_failed(std::string("element 'vertex' has no property '") + missing + "'");
   if (element.count > kMaxMeshElements)
     return element_failed("more than " + std::to_string(kMaxMeshElements) + " vertices");
-  // The check of the header guarantees that the file is longer than half of what is allocated.
-  mesh.positions.resize(static_cast<size_t>(element.count) * 3);
-  if (has_normals) mesh.normals.resize(mesh.positions.size());
+  // The check of the header guarantees that the file is longer than a quarter of what is allocated.
+  const auto count = static_cast<size_t>(element.count);
+  mesh.positions.resize(count * 3);
+  if (!assign(element, {"nx", "ny", "nz"}, PlyTarget::kNormal, columns))
+    mesh.normals.resize(count * 3);
+  if (source.needs.uvs && assign_uvs(element, columns)) mesh.uvs.resize(count * 2);
+  if (source.needs.colours &&
+      !assign(element, {"red", "green", "blue"}, PlyTarget::kColour, columns))
+    mesh.colours.resize(count * 3);
   for (std::int64_t row = 0; row < element.count; ++row) {
-    if (!numbers.begin_row() || !read_vertex(element, target, row)) return row_failed(element, row);
+    if (!numbers.begin_row() || !read_vertex(element, columns, row))
+      return row_failed(element, row);
     numbers.end_row();
   }
   has_vertices = true;

@@ -94,6 +94,24 @@ Generator read_icosphere(ObjectReader &object) {
   return [=] { return MeshShape{generate_icosphere(radius, subdivisions)}; };
 }
 
+Generator read_fur(ObjectReader &object) {
+  constexpr double kMaxSegments = 50e6;
+  Fur fur;
+  object.vector("center", kCoordinate, fur.center);
+  object.number("radius", kLength, fur.radius);
+  object.integer("count", 1, 10'000'000, fur.count);
+  object.number("length", kLength, fur.length);
+  read_root_and_tip("thickness", object, fur.thickness);
+  object.number("bend", kUnitInterval, fur.bend);
+  object.number("curl", kUnitInterval, fur.curl);
+  object.number("spread", kUnitInterval, fur.spread);
+  object.integer("segments", 1, 1000, fur.segments);
+  object.integer("seed", 0, INT_MAX, fur.seed);
+  if (static_cast<double>(fur.count) * fur.segments > kMaxSegments)
+    object.error("count x segments is more than 50 million");
+  return [=] { return generate_fur(fur); };
+}
+
 Generator read_box(ObjectReader &object) {
   Double3 lo = {-1, -1, -1}, hi = {1, 1, 1};
   object.vector("lo", kCoordinate, lo);
@@ -118,6 +136,7 @@ const std::vector<GeneratedType> &generated_types() {
       {"sphere_flake", read_sphere_flake},
       {"icosphere", read_icosphere},
       {"box", read_box},
+      {"fur", read_fur},
   };
   return types;
 }

@@ -1,74 +1,49 @@
 // An item of "materials": what light does at a surface.
-#include <cmath>
-
-#include "metals.h"
-#include "read_scene.h"
+#include "material_readers.h"
+#include "texture_keys.h"
 
 namespace phalanx {
 
 namespace {
 
-constexpr Range kIor = {1e-3, 1e5};
-constexpr Range kEta = {1e-4, 1e5};
-constexpr Range kAbsorption = {0, 1e5};
+/// What scene files call a type, the kind that it is unless its parameters ask for another
+/// (build_materials.cpp), and what reads its keys.
+struct MaterialType {
+  const char *name;
+  MaterialKind kind;
+  MaterialReader *read;
+};
 
-const std::vector<Choice> kMaterialTypes = {{"diffuse", kDiffuse},
-                                            {"mirror", kMirror},
-                                            {"dielectric", kDielectric},
-                                            {"conductor", kConductor},
-                                            {"black", kBlack}};
+const std::vector<MaterialType> kMaterialTypes = {
+    {"diffuse", kDiffuse, read_reflectance},
+    {"mirror", kMirror, read_reflectance},
+    {"dielectric", kDielectric, read_dielectric},
+    {"conductor", kConductor, read_conductor},
+    {"black", kBlack, read_nothing_more},
+    {"rough_diffuse", kRoughDiffuse, read_rough_diffuse},
+    {"thin_dielectric", kThinDielectric, read_thin_dielectric},
+    {"coated_diffuse", kCoated, read_coated_diffuse},
+    {"principled", kPrincipled, read_principled},
+    {"phong", kPhong, read_phong},
+    {"blinn_phong", kBlinnPhong, read_phong},
+    {"hair", kHair, read_hair},
+    {"blend", static_cast<MaterialKind>(kBlend), read_blend},
+    {"null", kBlack, read_null},
+};
 
-void read_metal(ObjectReader &object, MaterialDescription &material) {
+/// The type that the key "type" names, or null.
+const MaterialType *read_type(ObjectReader &object) {
   std::vector<Choice> names;
-  for (const Metal &metal : metals()) names.push_back({metal.name, static_cast<int>(names.size())});
+  for (const MaterialType &type : kMaterialTypes)
+    names.push_back({type.name, static_cast<int>(names.size())});
   int index = 0;
-  if (!object.choice("metal", names, index)) return;
-  const Metal &metal = metals()[static_cast<std::size_t>(index)];
-  material.has_ior = true;
-  material.eta = metal.eta;
-  material.k = metal.k;
+  if (!object.choice("type", names, index, kRequired)) return nullptr;
+  return &kMaterialTypes[static_cast<std::size_t>(index)];
 }
 
-/// The colour of a metal: reflectance, or eta with k, or a metal by name.
-void read_conductor_colour(ObjectReader &object, MaterialDescription &material) {
-  const bool has_eta_or_k = object.has("eta") || object.has("k");
-  if (object.has("reflectance") + has_eta_or_k + object.has("metal") > 1) {
-    object.error("give only one of: reflectance; eta with k; metal");
-  }
-  object.colour("reflectance", kUnitInterval, material.reflectance);
-  read_metal(object, material);
-  if (has_eta_or_k) {
-    material.has_ior = true;
-    object.colour("eta", kEta, material.eta, kRequired);
-    object.colour("k", kAbsorption, material.k, kRequired);
-  }
-}
-
-void read_roughness(ObjectReader &object, MaterialDescription &material) {
-  if (object.has("roughness") && object.has("alpha")) {
-    object.error("give only one of: roughness; alpha, which is its square");
-  }
-  object.number("roughness", kUnitInterval, material.roughness);
-  double alpha = 0;
-  if (object.number("alpha", kUnitInterval, alpha)) material.roughness = std::sqrt(alpha);
-}
-
-void read_scattering(ObjectReader &object, MaterialDescription &material) {
-  switch (material.kind) {
-    case kDiffuse:
-    case kMirror:
-      object.colour("reflectance", kUnitInterval, material.reflectance);
-      break;
-    case kDielectric:
-      object.number("ior", kIor, material.ior);
-      break;
-    case kConductor:
-      read_conductor_colour(object, material);
-      read_roughness(object, material);
-      break;
-    default:
-      break;
-  }
+/// True for kinds that normal maps can change; those of a blend are its parts'.
+bool has_relief(MaterialKind kind) {
+  return kind != kBlack && kind != kHair && static_cast<int>(kind) != kBlend;
 }
 
 void read_name(ObjectReader &object, SceneReader &reader, MaterialDescription &material) {
@@ -79,26 +54,54 @@ void read_name(ObjectReader &object, SceneReader &reader, MaterialDescription &m
   }
 }
 
+/// Kinds whose back may be left black: those that light does not pass.
+bool may_be_one_sided(MaterialKind kind) {
+  switch (kind) {
+    case kDiffuse:
+    case kRoughDiffuse:
+    case kMirror:
+    case kConductor:
+    case kCoated:
+    case kPrincipled:
+    case kPhong:
+    case kBlinnPhong:
+      return true;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
+
+void read_null(ObjectReader &, SceneReader &, MaterialDescription &material) {
+  material.is_null = true;
+}
+
+void read_nothing_more(ObjectReader &, SceneReader &, MaterialDescription &) {}
+
+void read_reflectance(ObjectReader &object, SceneReader &reader, MaterialDescription &material) {
+  colour_or_texture(object, "reflectance", kUnitInterval, reader, material.reflectance,
+                    material.textures.reflectance);
+}
 
 MaterialDescription read_material(const Node &node, SceneReader &reader) {
   MaterialDescription material;
   ObjectReader object(node, reader.source);
   read_name(object, reader, material);
-  int kind = kDiffuse;
-  if (!object.choice("type", kMaterialTypes, kind, kRequired)) {
+  const MaterialType *const type = read_type(object);
+  if (type == nullptr) {
     object.give_up("a material");
     return material;
   }
-  material.kind = static_cast<MaterialKind>(kind);
-  read_scattering(object, material);
-  object.colour("emission", kRadiance, material.emission);
-  object.boolean("two_sided", material.two_sided);
-  object.finish(std::string("a ") + kMaterialTypes[static_cast<std::size_t>(kind)].name +
-                " material");
-  if (object.ok() && material.two_sided && material.emission == Double3{0, 0, 0}) {
-    reader.source.warn(node, "two_sided does nothing without emission");
+  material.kind = type->kind;
+  type->read(object, reader, material);
+  if (!material.is_null) {
+    read_emission(object, reader, material);
+    read_opacity(object, reader, material);
+    if (has_relief(type->kind)) read_relief(object, reader, material);
+    if (may_be_one_sided(type->kind)) object.boolean("one_sided", material.one_sided);
   }
+  object.finish(std::string("a ") + type->name + " material");
   return material;
 }
 

@@ -35,12 +35,13 @@ DiskShape read_disk(ObjectReader &object) {
   return disk;
 }
 
-enum ShapeType { kQuadType, kSphereType, kDiskType, kMeshType, kFirstGeneratedType };
+enum ShapeType { kQuadType, kSphereType, kDiskType, kMeshType, kCurvesType, kFirstGeneratedType };
 
 const std::vector<Choice> &shape_types() {
   static const std::vector<Choice> types = [] {
     std::vector<Choice> all = {
-        {"quad", kQuadType}, {"sphere", kSphereType}, {"disk", kDiskType}, {"mesh", kMeshType}};
+        {"quad", kQuadType}, {"sphere", kSphereType}, {"disk", kDiskType}, {"mesh", kMeshType},
+        {"curves", kCurvesType}};
     for (const GeneratedType &type : generated_types())
       all.push_back({type.name, static_cast<int>(all.size())});
     return all;
@@ -66,7 +67,10 @@ void read_geometry(int type, ObjectReader &object, SceneReader &reader, ShapeDes
       shape.shape = read_disk(object);
       break;
     case kMeshType:
-      shape.shape = MeshShape{read_mesh(object, reader, shape.origin)};
+      shape.shape = MeshShape{read_mesh(object, reader, shape.origin, reader.needs_of(shape.material))};
+      break;
+    case kCurvesType:
+      shape.shape = read_curves(object);
       break;
     default:
       read_generated(type, object, reader, shape);

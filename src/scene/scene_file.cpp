@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "json_text.h"
-#include "read_scene.h"
+#include "texture_keys.h"
 
 namespace phalanx {
 
@@ -66,6 +66,8 @@ InstanceDescription read_instance(const Node &node, SceneReader &reader) {
   }
   if (const auto member = object.find("transform"))
     instance.transform = read_transform(*member, reader.source);
+  if (const auto member = object.find("transform_end"))
+    instance.transform_end = read_transform(*member, reader.source);
   object.finish("an instance");
   return instance;
 }
@@ -81,12 +83,19 @@ void read_settings(ObjectReader &object, Source &source, SceneDescription &scene
 }
 
 void read_world(ObjectReader &object, SceneReader &reader, SceneDescription &scene) {
+  if (object.is_unreadable("textures")) reader.textures.add_nameless();
+  for (const Node &node : object.array("textures", "textures")) {
+    reader.texture_list.push_back(read_texture(node, reader));
+  }
+  scene.textures = reader.texture_list;
   if (object.is_unreadable("materials")) reader.materials.add_nameless();
   for (const Node &node : object.array("materials", "materials")) {
     scene.materials.push_back(read_material(node, reader));
   }
+  find_blended_materials(reader, scene.materials);
+  reader.mesh_needs = find_mesh_needs(scene.textures, scene.materials);
 
-  read_lights(object.array("lights", "lights"), reader.source, scene);
+  read_lights(object.array("lights", "lights"), reader, scene);
   read_shapes(object.array("shapes", "shapes"), reader, scene.shapes);
 
   if (object.is_unreadable("groups")) reader.groups.add_nameless();

@@ -14,6 +14,7 @@
 #define __ISPC_STRUCT_Sphere__
 #define __ISPC_STRUCT_Disk__
 #define __ISPC_STRUCT_Instance__
+#define __ISPC_STRUCT_Motion__
 #define __ISPC_STRUCT_Texture__
 #define __ISPC_STRUCT_Light__
 #define __ISPC_STRUCT_LightNode__

@@ -15,7 +15,7 @@ using SlotsKernel = void(const SceneView &, const TileView &, const WaveView &, 
                          int32 count);
 using ShadeKernel = int32(const SceneView &, const FrameView &, const TileView &, const WaveView &,
                           const int32 *slots, int32 count, int32 num_shadow);
-using EscapedKernel = void(const SceneView &, const FrameView &, const TileView &, const WaveView &,
+using FrameKernel = void(const SceneView &, const FrameView &, const TileView &, const WaveView &,
                            const int32 *slots, int32 count);
 
 struct Kernels {
@@ -25,21 +25,22 @@ struct Kernels {
   // Stages of the wavefront, in the order of its loop; see the .ispc file of that name.
   void (*generate)(const FrameView &, const TileView &, const WaveView &, const int32 *slots,
                    int32 first_index, int32 count);
-  void (*intersect)(const SceneView &, const WaveView &, const int32 *slots, int32 count,
-                    int32 coherent);
+  void (*intersect)(const SceneView &, const TileView &, const WaveView &, const int32 *slots,
+                    int32 count, int32 coherent);
   SlotsKernel *aov;
   void (*bucket)(const WaveView &, int32 num_slots, const int32 *kinds, int32 num_kinds,
                  int32 *counts);
   ShadeKernel *shade[kNumBasicKinds];  // kPlain
-  EscapedKernel *shade_escaped;
+  FrameKernel *shade_escaped;
   void (*shadow)(const SceneView &, const TileView &, const WaveView &, const int32 *slots,
                  int32 count, int32 coherent);
   int32 (*compact)(const WaveView &);
   // kRich: with everything that a scene can have.
-  SlotsKernel *resolve, *aov_rich;
+  FrameKernel *resolve;
+  SlotsKernel *aov_rich;
   ShadeKernel *shade_rich[kNumMaterialKinds];
   ShadeKernel *shade_view;
-  EscapedKernel *shade_escaped_rich;
+  FrameKernel *shade_escaped_rich;
 
   // The other schedules: all samples of a tile.
   void (*megakernel)(const SceneView &, const FrameView &, const TileView &, std::int64_t *counts);

@@ -38,14 +38,14 @@ void render_wavefront(const Kernels &k, const Plan &plan, const SceneView &scene
     clock.lap(kStageGenerate, num_fresh);
 
     // Intersect: camera rays are coherent, the others are not.
-    k.intersect(scene, wave, wave.free, num_fresh, 1);
-    k.intersect(scene, wave, wave.active, num_active, 0);
+    k.intersect(scene, tile, wave, wave.free, num_fresh, 1);
+    k.intersect(scene, tile, wave, wave.active, num_active, 0);
     rays.camera += num_fresh;
     rays.bounce += num_active;
     clock.lap(kStageIntersect, num_fresh + num_active);
     if (plan.blends) {
-      k.resolve(scene, tile, wave, wave.free, num_fresh);
-      k.resolve(scene, tile, wave, wave.active, num_active);
+      k.resolve(scene, frame, tile, wave, wave.free, num_fresh);
+      k.resolve(scene, frame, tile, wave, wave.active, num_active);
       clock.lap(kStageResolve, num_fresh + num_active);
     }
     if (plan.aovs) {

@@ -59,14 +59,16 @@ TEST_CASE("furnace: a white conductor never gains energy, and both integrals agr
       CAPTURE(wo.z);
       CHECK(mean.mean() <= 1 + 3 * mean.standard_error());
       if (alpha >= 0.1f)
-        CHECK(mean.p(integrated_albedo(Seen<kConductor>{conductor(alpha)}, wo), 2e-4) > test::alpha());
+        CHECK(mean.p(integrated_albedo(Seen<kConductor>{conductor(alpha)}, wo), 2e-4) >
+              test::alpha());
     }
 }
 
 TEST_CASE("furnace: known losses of single-scattering GGX (M9)") {
   // alpha = 1 seen along the normal: 1 - ln 2.
   const Vec3 up = vec3(0, 0, 1);
-  CHECK(integrated_albedo(Seen<kConductor>{conductor(1)}, up) == doctest::Approx(0.306853).epsilon(2e-5));
+  CHECK(integrated_albedo(Seen<kConductor>{conductor(1)}, up) ==
+        doctest::Approx(0.306853).epsilon(2e-5));
   CHECK(albedo(Seen<kConductor>{conductor(1)}, up, 1000000).p(0.30685282) > test::alpha());
   // Averages over a white environment.
   const float alphas[] = {0.1f, 0.25f, 0.5f, 0.75f, 1.0f};
@@ -110,7 +112,8 @@ TEST_CASE("conductor: nothing below the horizon, and the smooth limit is a mirro
   Material smooth = material(kConductor, 0.5f);
   smooth.alpha = 1e-3f;
   const float expected = sample_mirror(material(kMirror, 0.5f), wo).weight.x;
-  CHECK(albedo(Seen<kConductor>{smooth}, wo, 100000).mean() == doctest::Approx(expected).epsilon(1e-3));
+  CHECK(albedo(Seen<kConductor>{smooth}, wo, 100000).mean() ==
+        doctest::Approx(expected).epsilon(1e-3));
 }
 
 TEST_CASE("conductor: Fresnel by index where given, else by colour") {

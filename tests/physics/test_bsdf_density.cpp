@@ -26,8 +26,7 @@ TEST_CASE("diffuse: directions follow the density, which integrates to 1") {
 
 TEST_CASE("conductor: rough lobes follow their density in direction space") {
   for (const float alpha : kRough)
-    for (const Vec3 wo : local_directions())
-      check_conductor(alpha, wo, UpperDirections{});
+    for (const Vec3 wo : local_directions()) check_conductor(alpha, wo, UpperDirections{});
 }
 
 TEST_CASE("conductor: sharp lobes follow their density in half-vector space (M1)") {

@@ -30,6 +30,46 @@ double whole_albedo(const Seen<kHair> &seen, Vec3 wo) {
   return sum;
 }
 
+/// The model written down as in the papers, in double precision, with functions of the library.
+double reference_f_cos(const Material &m, Vec3 wo, Vec3 wi) {
+  const auto wide = [](float x) { return static_cast<double>(x); };
+  const double b = wide(m.roughness), n = wide(m.alpha), eta = wide(m.ior),
+               tilt = std::asin(wide(m.tilt));
+  const double v = std::pow(0.726 * b + 0.812 * b * b + 3.7 * std::pow(b, 20), 2);
+  const double s = std::sqrt(kPi / 8) * (0.265 * n + 1.194 * n * n + 5.372 * std::pow(n, 22));
+  const double theta_o = std::asin(wide(wo.x)), theta_i = std::asin(wide(wi.x));
+  const double phi_o = std::atan2(wide(wo.y), wide(wo.z)),
+               phi_i = std::atan2(wide(wi.y), wide(wi.z));
+  const double h = std::sin(phi_o);
+  const double eta_p = std::sqrt(eta * eta - std::pow(std::sin(theta_o), 2)) / std::cos(theta_o);
+  const double gamma_o = std::asin(h), gamma_t = std::asin(h / eta_p);
+  const double cos_t = std::sqrt(1 - std::pow(std::sin(theta_o) / eta, 2));
+  const double t = std::exp(-wide(m.transmittance.x) * 2 * std::cos(gamma_t) / cos_t);
+  const Refraction fresnel = fresnel_dielectric(wo.z, m.ior);
+  const double f = wide(fresnel.reflectance);
+  const double a[] = {f, (1 - f) * (1 - f) * t, (1 - f) * (1 - f) * t * t * f,
+                      (1 - f) * (1 - f) * t * t * t * f * f / (1 - t * f)};
+  const double variances[] = {v, v / 4, 4 * v, 4 * v};
+  const double tilts[] = {-2 * tilt, tilt, 4 * tilt, 0};
+  double sum = 0;
+  for (int p = 0; p < 4; ++p) {
+    const double o = theta_o + tilts[p], w = variances[p];
+    const double longitudinal =
+        std::exp(-std::sin(theta_i) * std::sin(o) / w) *
+        std::cyl_bessel_i(0, std::fabs(std::cos(theta_i) * std::cos(o)) / w) /
+        (2 * w * std::sinh(1 / w));
+    const double x =
+        std::remainder(phi_i - phi_o - (2 * p * gamma_t - 2 * gamma_o + p * kPi), 2 * kPi);
+    const auto distribution = [s](double at) { return 1 / (1 + std::exp(-at / s)); };
+    const double logistic =
+        std::exp(-std::fabs(x) / s) / (s * std::pow(1 + std::exp(-std::fabs(x) / s), 2));
+    const double azimuthal =
+        p == 3 ? 1 / (2 * kPi) : logistic / (distribution(kPi) - distribution(-kPi));
+    sum += a[p] * longitudinal * azimuthal;
+  }
+  return sum;
+}
+
 /// The direction with most light among those around `centre`.
 Vec3 brightest(const Seen<kHair> &seen, Vec3 wo, Vec3 centre, float reach) {
   Random random(6);
@@ -51,7 +91,8 @@ TEST_CASE("hair: the Bessel function") {
     // e^-x I0(x) overflows on its way beyond 700; its series does not.
     const double expected = x < 600 ? std::exp(-x) * std::cyl_bessel_i(0, x)
                                     : (1 + 1 / (8 * x)) / std::sqrt(2 * kPi * x);
-    CHECK(relative_error(static_cast<double>(scaled_bessel_i0(static_cast<float>(x))), expected) < 1e-6);
+    CHECK(relative_error(static_cast<double>(scaled_bessel_i0(static_cast<float>(x))), expected) <
+          1e-6);
   }
 }
 
@@ -60,12 +101,13 @@ TEST_CASE("hair: longitudinal and azimuthal lobes integrate to 1") {
     CAPTURE(roughness);
     for (const float factor : {0.25f, 1.0f, 4.0f})
       for (const double theta : {0.0, 0.7, -1.4, 1.57}) {
-        const float s = static_cast<float>(std::sin(theta)), c = static_cast<float>(std::cos(theta));
+        const float s = static_cast<float>(std::sin(theta)),
+                    c = static_cast<float>(std::cos(theta));
         const auto lobe = [&](double at) {
           const double cosine = std::cos(at);
-          return cosine * static_cast<double>(hair_longitudinal(
-                              static_cast<float>(std::sin(at)), static_cast<float>(cosine), s, c,
-                              factor * hair_variance(roughness)));
+          return cosine * static_cast<double>(hair_longitudinal(static_cast<float>(std::sin(at)),
+                                                                static_cast<float>(cosine), s, c,
+                                                                factor * hair_variance(roughness)));
         };
         double sum = 0;
         for (int i = 0; i < 512; ++i)
@@ -73,8 +115,9 @@ TEST_CASE("hair: longitudinal and azimuthal lobes integrate to 1") {
         CHECK(sum == doctest::Approx(1).epsilon(1e-5));
       }
     const auto lobe = [&](double turns) {
-      return 2 * kPi * static_cast<double>(hair_azimuthal(static_cast<float>(turns),
-                                                          hair_logistic_scale(roughness)));
+      return 2 * kPi *
+             static_cast<double>(
+                 hair_azimuthal(static_cast<float>(turns), hair_logistic_scale(roughness)));
     };
     double sum = 0;
     for (int i = 0; i < 512; ++i) sum += integrate(lobe, i / 512.0, (i + 1) / 512.0, 1e-9, 8);
@@ -130,9 +173,27 @@ TEST_CASE("hair: samples of each lobe follow it, however sharp") {
 }
 
 TEST_CASE("hair: directions follow the density, which integrates to 1") {
-  for (const Seen<kHair> &seen : {hair(0.3f, 0.3f), hair(0.6f, 0.25f, 0.5f), hair(1, 1, 2)})
-    for (const Vec3 wo : local_directions())
-      check_sampling(seen, wo, AllDirections{}, num_samples());
+  for (const Vec3 wo : local_directions())
+    check_sampling(hair(0.3f, 0.3f), wo, AllDirections{}, num_samples());
+  for (const Seen<kHair> &seen : {hair(0.6f, 0.25f, 0.5f), hair(1, 1, 2)})
+    for (const std::size_t i : {0u, 4u, 8u})
+      check_sampling(seen, local_directions()[i], AllDirections{}, num_samples());
+}
+
+TEST_CASE("hair: the value is that of the papers") {
+  Random random(9);
+  for (const float longitudinal : {0.25f, 0.5f, 1.0f})
+    for (const float azimuthal : {0.2f, 0.6f, 1.0f})
+      for (const float absorption : {0.0f, 0.8f})
+        for (int i = 0; i < 300; ++i) {
+          const Seen<kHair> seen = hair(longitudinal, azimuthal, absorption);
+          const Vec3 wo = upper(random, 0.05f), wi = random.direction();
+          const double expected = reference_f_cos(seen.m, wo, wi);
+          CAPTURE(longitudinal);
+          CAPTURE(azimuthal);
+          CHECK(static_cast<double>(seen.eval(wo, wi).f_cos.x) ==
+                doctest::Approx(expected).epsilon(1e-4).scale(1e-3));
+        }
 }
 
 TEST_CASE("hair: sample and eval agree") {

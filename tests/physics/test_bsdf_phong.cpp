@@ -23,13 +23,13 @@ double like_alpha(float exponent) { return std::sqrt(2 / (static_cast<double>(ex
 }  // namespace
 
 TEST_CASE("phong: directions follow the density, which integrates to 1 less what is lost") {
-  for (const float exponent : {1.0f, 10.0f, 200.0f})
+  for (const float exponent : {10.0f, 200.0f})
     for (const Vec3 wo : local_directions())
       check_sampling(lobe<kPhong>(exponent), wo, UpperDirections{}, num_samples());
 }
 
 TEST_CASE("blinn-phong: half vectors follow the density, which integrates to 1 less what is lost") {
-  for (const float exponent : {1.0f, 10.0f, 1e4f})
+  for (const float exponent : {1.0f, 1e4f})
     for (const Vec3 wo : local_directions()) {
       const double alpha = like_alpha(exponent);
       check_sampling(lobe<kBlinnPhong>(exponent), wo, ReflectingNormals{{alpha}}, num_samples(),
@@ -48,7 +48,8 @@ TEST_CASE("phong: sharp lobes keep their width") {
       const Vec3 wi = phong.sample(wo, random).wi;
       const double x = static_cast<double>(wi.x + wo.x), y = static_cast<double>(wi.y + wo.y),
                    z = static_cast<double>(wi.z - wo.z);
-      const double t = -(static_cast<double>(exponent) + 1) * std::log1p(-0.5 * (x * x + y * y + z * z));
+      const double t =
+          -(static_cast<double>(exponent) + 1) * std::log1p(-0.5 * (x * x + y * y + z * z));
       mean.add(t);
       square.add(t * t);
     }

@@ -19,7 +19,12 @@ namespace {
 FrameView make_frame_view(const std::vector<float> &offsets) {
   const Frame f = make_frame(normalize(vec3(0.3f, -0.5f, 0.7f)));
   FrameView frame = {};
-  frame.camera = {{1, 2, 3}, f.s, f.t, f.n, 0.4f, 0, 5};
+  frame.camera.position = {1, 2, 3};
+  frame.camera.right = f.s;
+  frame.camera.up = f.t;
+  frame.camera.forward = f.n;
+  frame.camera.tan_half_fov_y = 0.4f;
+  frame.camera.focus_distance = 5;
   frame.width = 64;
   frame.height = 48;
   frame.filter_offsets = offsets.data();
@@ -188,4 +193,174 @@ TEST_CASE("camera: extreme fields of view give unit rays (C1)") {
       CHECK(std::fabs(length(r.direction) - 1) < 1e-6f);
     }
   }
+}
+
+// ---- iris -----------------------------------------------------------------------------------------
+
+TEST_CASE("square_to_polygon: uniform in area, corners where they should be") {
+  for (const int blades : {3, 4, 5, 6, 9, 64})
+    for (const double turns : {0.0, 0.13, 0.99}) {
+      // Coordinates of a triangle of the polygon: which one, distance of the chord from the centre squared,
+      // place along the chord. Uniform in each.
+      Random random(static_cast<std::uint64_t>(blades));
+      Histogram sectors({blades, 1, 0, 1, 0, 1}), within({16, 16, 0, 1, 0, 1});
+      const double half = kPi / blades;
+      for (int i = 0; i < num_samples() / 4; ++i) {
+        const Vec2 p = square_to_polygon(random.square(), blades, static_cast<float>(turns));
+        const double x = static_cast<double>(p.x), y = static_cast<double>(p.y);
+        double sector = (azimuth(x, y) / (2 * kPi) - turns) * blades;
+        sector -= std::floor(sector / blades) * blades;
+        sectors.add(sector / blades, 0.5);
+        const double angle = (sector - std::floor(sector) - 0.5) * 2 * half, r = std::hypot(x, y);
+        const double depth = r * std::cos(angle) / std::cos(half);  // 1 on the edge
+        within.add(depth * depth, 0.5 + 0.5 * std::tan(angle) / std::tan(half));
+      }
+      CAPTURE(blades);
+      CAPTURE(turns);
+      CHECK(sectors.outside() == 0);
+      CHECK(within.outside() == 0);
+      const std::vector<double> even(static_cast<std::size_t>(blades), 1.0 / blades);
+      CHECK(chi_square_fit(sectors, even).p > test::alpha());
+      CHECK(chi_square_fit(within, std::vector<double>(256, 1.0 / 256)).p > test::alpha());
+    }
+}
+
+TEST_CASE("camera: the iris is a polygon of the lens's radius, and its rays meet in the plane of focus") {
+  FrameView frame = make_frame_view(kCentre);
+  frame.camera.lens_radius = 0.25f;
+  frame.camera.blades = 6;
+  frame.camera.blade_turns = 0.2f;
+  const Camera c = frame.camera;
+  const float scale = 0.4f / 24;
+  const Vec3 aim = c.position + (c.forward + c.right * ((10.5f - 32) * scale) +
+                                 c.up * ((24 - 40.5f) * scale)) * c.focus_distance;
+  double sum = 0, widest = 0;
+  const int n = 1 << 14;
+  for (int i = 0; i < n; ++i) {
+    const Ray r = camera_ray(frame, 10, 40, pixel_scramble(10, 40, 1), i);
+    const Vec3 shift = r.origin - c.position;
+    const double x = static_cast<double>(dot(shift, c.right)) / 0.25;
+    const double y = static_cast<double>(dot(shift, c.up)) / 0.25;
+    sum += x * x + y * y;
+    widest = std::max(widest, std::hypot(x, y));
+    const float t = (c.focus_distance - dot(shift, c.forward)) / dot(r.direction, c.forward);
+    REQUIRE(static_cast<double>(length(r.origin + r.direction * t - aim)) < 1e-5);
+    REQUIRE(r.weight == 1.0f);
+  }
+  // Mean squared radius of a regular polygon of circumradius 1: (2 + cos(2 pi / n)) / 6.
+  CHECK(std::fabs(sum / n - (2 + std::cos(2 * kPi / 6)) / 6) < 1e-3);
+  CHECK(widest <= 1 + 1e-5);
+  CHECK(widest > 0.99);
+}
+
+// ---- cameras without perspective --------------------------------------------------------------------
+
+namespace {
+
+/// Components of a vector along the camera's axes.
+struct Local {
+  double right, up, forward;
+};
+Local to_camera(const Camera &c, Vec3 v) {
+  return {static_cast<double>(dot(v, c.right)), static_cast<double>(dot(v, c.up)),
+          static_cast<double>(dot(v, c.forward))};
+}
+double distance(Local a, Local b) {
+  return std::hypot(a.right - b.right, a.up - b.up, a.forward - b.forward);
+}
+
+FrameView wide_view(CameraKind kind) {
+  FrameView frame = make_frame_view(kCentre);
+  frame.camera.kind = kind;
+  frame.camera.half_height = 3;
+  frame.camera.half_angle_turns = 0.25f;
+  return frame;
+}
+
+Ray centre_ray(const FrameView &frame, int x, int y) { return camera_ray(frame, x, y, 1, 0); }
+
+}  // namespace
+
+TEST_CASE("orthographic: parallel rays, pixels of equal size") {
+  const FrameView frame = wide_view(kOrthographic);
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const Ray r = centre_ray(frame, x, y);
+      const Local from = to_camera(frame.camera, r.origin - frame.camera.position);
+      REQUIRE(distance(from, {(x + 0.5 - 32) / 8, (24 - y - 0.5) / 8, 0}) < 2e-6);
+      REQUIRE(length(r.direction - frame.camera.forward) == 0.0f);
+      REQUIRE(r.weight == 1.0f);
+    }
+}
+
+TEST_CASE("equirectangular: longitude and latitude grow evenly, the whole sphere once") {
+  const FrameView frame = wide_view(kEquirectangular);
+  double solid_angle = 0;
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const Ray r = centre_ray(frame, x, y);
+      const double longitude = ((x + 0.5) / 64 - 0.5) * 2 * kPi;
+      const double latitude = (0.5 - (y + 0.5) / 48) * kPi;
+      const Local wanted = {std::cos(latitude) * std::sin(longitude), std::sin(latitude),
+                            std::cos(latitude) * std::cos(longitude)};
+      REQUIRE(distance(to_camera(frame.camera, r.direction), wanted) < 1e-6);
+      REQUIRE(std::fabs(length(r.direction) - 1) < 1e-6f);
+      REQUIRE(length(r.origin - frame.camera.position) == 0.0f);
+      solid_angle += std::cos(latitude) * (2 * kPi / 64) * (kPi / 48);
+    }
+  CHECK(solid_angle == doctest::Approx(4 * kPi).epsilon(1e-3));
+}
+
+TEST_CASE("equirectangular: filters reach round the seam and over the poles") {
+  // Every sample three pixels off: pixel (x, y) sees what pixel (x + 3, y + 3) sees without.
+  const std::vector<float> three(PHALANX_FILTER_CELLS + 1, 3.0f);
+  FrameView frame = wide_view(kEquirectangular), off = frame;
+  off.filter_offsets = three.data();
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 64; ++x) {
+      int to_x = x + 3, to_y = y + 3;
+      if (to_y >= 48) to_y = 95 - to_y, to_x += 32;  // the other side of the pole
+      const Ray r = centre_ray(off, x, y), expected = centre_ray(frame, to_x % 64, to_y);
+      REQUIRE(length(r.direction - expected.direction) < 1e-6f);
+    }
+  // However small the picture and wide the filter.
+  frame.width = 1;
+  frame.height = 1;
+  for (const float offset : {-16.0f, -3.7f, 0.0f, 5.2f, 16.0f}) {
+    const std::vector<float> wide(PHALANX_FILTER_CELLS + 1, offset);
+    frame.filter_offsets = wide.data();
+    CHECK(std::fabs(length(centre_ray(frame, 0, 0).direction) - 1) < 1e-6f);
+  }
+}
+
+TEST_CASE("fisheye: angles grow with the distance from the centre; nothing is seen outside the disc") {
+  for (const double angle : {10.0, 90.0, 180.0, 250.0, 360.0}) {
+    FrameView frame = wide_view(kFisheye);
+    frame.camera.half_angle_turns = static_cast<float>(angle / 720);
+    int seen = 0;
+    for (int y = 0; y < 48; ++y)
+      for (int x = 0; x < 64; ++x) {
+        const Ray r = centre_ray(frame, x, y);
+        const double right = (x + 0.5 - 32) / 24, up = (24 - y - 0.5) / 24;
+        const double radius = std::hypot(right, up), theta = radius * angle * kPi / 360;
+        REQUIRE(std::fabs(length(r.direction) - 1) < 1e-6f);
+        if (radius > 1) {
+          REQUIRE(r.weight == 0.0f);
+          REQUIRE(all_finite(r.origin));
+          REQUIRE(dot(r.origin, r.direction) > 1e17f);  // far away, and on its way further
+          continue;
+        }
+        ++seen;
+        REQUIRE(r.weight == 1.0f);
+        const Local wanted = {std::sin(theta) * right / radius, std::sin(theta) * up / radius,
+                              std::cos(theta)};
+        REQUIRE(distance(to_camera(frame.camera, r.direction), wanted) < 1e-6);
+        REQUIRE(length(r.origin - frame.camera.position) == 0.0f);
+      }
+    CHECK(seen == doctest::Approx(kPi * 24 * 24).epsilon(0.01));
+  }
+  FrameView middle = wide_view(kFisheye);
+  middle.width = 63;
+  middle.height = 47;
+  CHECK(length(centre_ray(middle, 31, 23).direction - middle.camera.forward) == 0.0f);
 }

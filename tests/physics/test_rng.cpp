@@ -18,12 +18,6 @@ namespace {
 
 const FrameView kSobol = sampler_frame(kSobolSampler);
 
-std::vector<Vec2> points(const FrameView &frame, uint32 scramble, int dimension, int first, int n) {
-  std::vector<Vec2> p;
-  for (int i = 0; i < n; ++i) p.push_back(sample_pair(frame, scramble, first + i, dimension));
-  return p;
-}
-
 /// Correlation of two columns times sqrt(n): of variance 1 if the numbers are independent.
 double scaled_correlation(const std::vector<float> &a, const std::vector<float> &b) {
   double sum = 0;

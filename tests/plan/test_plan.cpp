@@ -14,7 +14,7 @@ bool has(const std::vector<std::string> &list, const std::string &name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 Plan plan_of(const std::string &file, RenderOptions o = {}) {
-  const BuiltScene b = build_file(file, "sse4");
+  const BuiltScene b = build_file(file, isas_here().front());
   return make_plan(b.description, b.scene, o);
 }
 }  // namespace
@@ -47,7 +47,7 @@ TEST_CASE("plan: a thread needs less than 16 MB beyond the scene") {
 }
 
 TEST_CASE("plan: says what rendering then allocates") {
-  const BuiltScene b = build_file("scenes/cornell-glass.json", "sse4");
+  const BuiltScene b = build_file("scenes/cornell-glass.json", isas_here().front());
   RenderOptions o;
   o.spp = 1;
   o.width = o.height = 16;
@@ -58,7 +58,7 @@ TEST_CASE("plan: says what rendering then allocates") {
 }
 
 TEST_CASE("plan: pictures that cannot be are refused") {
-  const BuiltScene b = build_file("scenes/cornell-box.json", "sse4");
+  const BuiltScene b = build_file("scenes/cornell-box.json", isas_here().front());
   const auto refuse = [&](auto change) {
     RenderOptions o;
     change(o);
@@ -69,4 +69,16 @@ TEST_CASE("plan: pictures that cannot be are refused") {
   refuse([](RenderOptions &o) { o.crop = {-1, 0, 2, 2}; });
   refuse([](RenderOptions &o) { o.tile_size = 12; });
   refuse([](RenderOptions &o) { o.wave_size = 3; });
+}
+
+TEST_CASE("plan: blue noise is refused where its numbers do not suffice") {
+  BuiltScene b = build_file("scenes/cornell-box.json", isas_here().front());
+  b.description.sampler.kind = kBlueNoiseSampler;
+  RenderOptions o;
+  o.width = 4096, o.height = 100, o.spp = 256;  // 2^24 places along the curve
+  CHECK(make_plan(b.description, b.scene, o).frame.spp == 256);
+  o.spp = 257;
+  CHECK_THROWS_AS(make_plan(b.description, b.scene, o), InputError);
+  b.description.sampler.kind = kSobolSampler;
+  CHECK(make_plan(b.description, b.scene, o).spp == 257);
 }

@@ -393,6 +393,58 @@ TEST_CASE("materials: roughness, smooth conductors, emission") {
   }
 }
 
+TEST_CASE("materials: the basic kind where that will do, else the rich one with its tables") {
+  SceneDescription d = empty_scene();
+  d.materials.clear();
+  const auto add = [&](MaterialKind kind, double roughness) -> MaterialDescription & {
+    MaterialDescription m;
+    m.kind = kind;
+    m.roughness = roughness;
+    d.materials.push_back(m);
+    return d.materials.back();
+  };
+  add(kConductor, 0.5);
+  add(kConductor, 0.5).multiple_scattering = true;
+  for (const auto &[x, y] : {std::pair(0.2, 0.6), std::pair(0.5, 0.5), std::pair(0.01, 0.02)}) {
+    MaterialDescription &m = add(kConductor, 0);
+    m.anisotropic = m.multiple_scattering = true;
+    m.roughness_x = x;
+    m.roughness_y = y;
+    m.has_ior = true;
+    m.eta = {0.2, 0.9, 1};
+    m.k = {3, 2, 0};
+  }
+  add(kDielectric, 0);
+  add(kDielectric, 0.03);
+  add(kDielectric, 0.5);
+  add(kDielectric, 0).transmittance = {1, 1, 0.5};
+  add(kCoated, 0);
+  add(kCoated, 0.5);
+  add(kRoughDiffuse, 0.75);
+  const Scene scene = build(d);
+  const MaterialKind kinds[] = {kConductor,   kGlossyConductor, kGlossyConductor, kGlossyConductor,
+                                kMirror,      kDielectric,      kDielectric,      kRoughDielectric,
+                                kRoughDielectric, kCoated,      kCoated,          kRoughDiffuse};
+  for (std::size_t i = 0; i < std::size(kinds); ++i) CHECK(scene.materials[i].kind == kinds[i]);
+  CHECK(scene.materials[0].table == -1);
+  const Material &brushed = scene.materials[2];
+  CHECK(brushed.alpha_x == 0.04f);
+  CHECK(brushed.alpha_y == 0.36f);
+  CHECK(brushed.alpha == doctest::Approx(0.12f));
+  CHECK((brushed.compensate == 1 && brushed.table >= 0));
+  CHECK(brushed.reflectance.x > 0.9f);  // the average of Fresnel's
+  CHECK(brushed.table != scene.materials[1].table);
+  CHECK(scene.materials[3].table == scene.materials[1].table);  // isotropic, after all
+  CHECK(scene.materials[7].alpha == 0.25f);
+  CHECK(scene.materials[8].alpha == 0.0f);
+  CHECK(scene.materials[8].transmittance.z == 0.5f);
+  CHECK(scene.materials[9].alpha == 0.0f);
+  CHECK(scene.materials[10].alpha == 0.25f);
+  CHECK(scene.materials[9].table == scene.materials[10].table);  // of the same index
+  CHECK(scene.materials[11].roughness == 0.75f);
+  CHECK(scene.view().tables == scene.tables.data());
+}
+
 // ---- lights -----------------------------------------------------------------------------------
 
 TEST_CASE("every emitting primitive is a light") {
@@ -659,4 +711,37 @@ TEST_CASE("camera: axes, angle, focus") {
   bad = d;
   bad.focus_distance = -1;
   CHECK(error_of_camera(bad) == "/camera/focus_distance");
+  bad = d;
+  bad.blades = 2;
+  CHECK(error_of_camera(bad) == "/camera/blades");
+  bad = d;
+  bad.height = 0;
+  CHECK(error_of_camera(bad) == "/camera/height");
+  bad = d;
+  bad.angle = 361;
+  CHECK(error_of_camera(bad) == "/camera/angle");
+}
+
+TEST_CASE("camera: kinds, iris") {
+  Diagnostics diagnostics;
+  CameraDescription d;
+  d.kind = kFisheye;
+  d.height = 5;
+  d.angle = 270;
+  d.aperture_radius = 0.5;
+  d.blades = 7;
+  d.blade_rotation = -90;
+  Camera camera = build_camera(d, diagnostics);
+  CHECK(camera.kind == kFisheye);
+  CHECK(camera.half_height == 2.5f);
+  CHECK(camera.half_angle_turns == 0.375f);
+  CHECK(camera.blades == 7);
+  CHECK(camera.blade_turns == 0.75f);
+  CHECK(camera.lens_radius == 0.0f);  // only perspective cameras have a lens
+  d.kind = kPerspective;
+  d.blade_rotation = 360;
+  camera = build_camera(d, diagnostics);
+  CHECK(camera.lens_radius == 0.5f);
+  CHECK(camera.blade_turns == 0.0f);
+  CHECK_FALSE(diagnostics.has_errors());
 }

@@ -72,6 +72,9 @@ TEST_CASE("scene file: camera, film, sampler and integrator say what the file sa
   CHECK(scene.camera.fov == 39.5);
   CHECK(scene.camera.aperture_radius == 0.05);
   CHECK(scene.camera.focus_distance == 4.5);
+  CHECK(scene.camera.kind == kPerspective);
+  CHECK(scene.camera.blades == 7);
+  CHECK(scene.camera.blade_rotation == 12.5);
   CHECK(scene.film.width == 320);
   CHECK(scene.film.height == 200);
   CHECK(scene.film.filter == kGaussianFilter);
@@ -88,7 +91,7 @@ TEST_CASE("scene file: camera, film, sampler and integrator say what the file sa
 
 TEST_CASE("scene file: materials and lights say what the file says") {
   const SceneDescription scene = everything();
-  REQUIRE(scene.materials.size() == 7);
+  REQUIRE(scene.materials.size() >= 12);
   const MaterialDescription &red = scene.materials[0], &mirror = scene.materials[1],
                             &water = scene.materials[2], &steel = scene.materials[3],
                             &alloy = scene.materials[4], &gold = scene.materials[5],
@@ -111,7 +114,7 @@ TEST_CASE("scene file: materials and lights say what the file says") {
   CHECK(alloy.roughness == 0.5);  // alpha 0.25
   CHECK(gold.has_ior);
   CHECK(gold.eta == Double3{0.222, 0.428, 1.335});
-  CHECK(gold.roughness == MaterialDescription().roughness);
+  CHECK(gold.roughness == 0.1);
   CHECK(lamp.kind == kBlack);
   CHECK(lamp.emission == Double3{10, 20, 30});
   CHECK(lamp.two_sided);
@@ -119,9 +122,65 @@ TEST_CASE("scene file: materials and lights say what the file says") {
   CHECK(scene.environment == Double3{0.5, 0.75, 1});
 }
 
+TEST_CASE("scene file: lights that are no surfaces say what the file says") {
+  const SceneDescription scene = everything();
+  CHECK(scene.integrator.light_choice == LightChoice::kTree);
+  CHECK(scene.integrator.light_points == LightPoints::kSolidAngle);
+  REQUIRE(scene.lights.size() == 5);
+  const LightDescription &point = scene.lights[0], &spot = scene.lights[1], &ies = scene.lights[2],
+                         &directional = scene.lights[3], &sun = scene.lights[4];
+  CHECK(point.kind == kPointLight);
+  CHECK(point.origin == scene.file + ": /lights/1");
+  CHECK(point.position == Double3{1, 2, 3});
+  CHECK(point.emission == Double3{4, 5, 6});
+  CHECK(spot.kind == kSpotLight);
+  CHECK(spot.direction == Double3{0, 0, 2});
+  CHECK(spot.inner_angle == 12.5);
+  CHECK(spot.outer_angle == 25);
+  CHECK(ies.kind == kPointLight);
+  CHECK(ies.profile.ends_with("downlight.ies"));
+  CHECK(!ies.profile_intensity);
+  CHECK(ies.horizontal == Double3{0, 1, 0});
+  CHECK(directional.kind == kDirectionalLight);
+  CHECK(directional.angular_diameter == 0);
+  CHECK(directional.emission == Double3{0.5, 0.5, 0.5});
+  CHECK(sun.kind == kDirectionalLight);
+  CHECK(sun.direction == Double3{0, -1, 0});
+  CHECK(sun.angular_diameter == 1.5);
+  CHECK(!scene.sky);
+  CHECK(!scene.environment_map);
+}
+
+TEST_CASE("scene file: rough, coated, thin and tinted materials say what the file says") {
+  const SceneDescription scene = everything();
+  const MaterialDescription &clay = scene.materials[7], &brushed = scene.materials[8],
+                            &frosted = scene.materials[9], &pane = scene.materials[10],
+                            &varnish = scene.materials[11];
+  CHECK(clay.kind == kRoughDiffuse);
+  CHECK(clay.reflectance == Double3{0.5, 0.25, 0.125});
+  CHECK(clay.roughness == 0.75);
+  CHECK(brushed.kind == kConductor);
+  CHECK((brushed.anisotropic && brushed.multiple_scattering && brushed.has_ior));
+  CHECK(brushed.roughness_x == 0.2);
+  CHECK(brushed.roughness_y == 0.6);
+  CHECK(frosted.kind == kDielectric);
+  CHECK(frosted.roughness == 0.4);
+  CHECK(frosted.specular == Double3{0.5, 0.5, 0.5});
+  CHECK(frosted.transmittance == Double3{0.25, 0.5, 0.75});
+  CHECK(pane.kind == kThinDielectric);
+  CHECK(pane.ior == 1.75);
+  CHECK(pane.specular == Double3{0.75, 0.5, 0.25});
+  CHECK(pane.transmittance == Double3{0.5, 0.5, 0.5});
+  CHECK(varnish.kind == kCoated);
+  CHECK(varnish.reflectance == Double3{0.5, 0.25, 0.75});
+  CHECK(varnish.ior == 1.6);
+  CHECK(varnish.roughness == 0.5);  // alpha 0.25
+  CHECK(varnish.specular == Double3{0.9, 0.9, 0.9});
+}
+
 TEST_CASE("scene file: shapes, groups and instances say what the file says") {
   const SceneDescription scene = everything();
-  REQUIRE(scene.shapes.size() == 13);
+  REQUIRE(scene.shapes.size() == 16);
   CHECK(scene.shapes[0].origin == scene.file + ": /shapes/0");
   CHECK(scene.shapes[0].material == 6);
   CHECK(shape_as<QuadShape>(scene.shapes[0]).corner == Double3{-1, 2, -1});
@@ -145,12 +204,30 @@ TEST_CASE("scene file: shapes, groups and instances say what the file says") {
   CHECK(shape_as<SpheresShape>(scene.shapes[10]).spheres.size() == 91);  // sphere_flake
   CHECK(num_triangles(scene.shapes[11]) == 20 * 16);                     // icosphere
   CHECK(num_triangles(scene.shapes[12]) == 12);                          // box
+  const CurvesShape &lines = shape_as<CurvesShape>(scene.shapes[13]);
+  CHECK(lines.sizes == std::vector<std::int32_t>{3, 2});
+  CHECK(lines.points[2] == std::array<double, 4>{0, 1, 3, 0.25});
+  const CurvesShape &spline = shape_as<CurvesShape>(scene.shapes[14]);
+  REQUIRE(spline.sizes == std::vector<std::int32_t>{9});  // 4 spans of 2 segments
+  CHECK(spline.points[0] == std::array<double, 4>{0, 0, 0, 0.5});
+  CHECK(spline.points[8][0] == doctest::Approx(1));
+  CHECK(spline.points[8][1] == doctest::Approx(1));
+  CHECK(spline.points[8][3] == 0.125);
+  const CurvesShape &fur = shape_as<CurvesShape>(scene.shapes[15]);
+  CHECK(fur.sizes == std::vector<std::int32_t>(7, 4));
+  CHECK(fur.points[0][3] == doctest::Approx(0.01));
+  CHECK(fur.points[3][3] == doctest::Approx(0.005));
+  CHECK(std::hypot(fur.points[4][0] - 1, fur.points[4][1] - 2, fur.points[4][2] - 3) ==
+        doctest::Approx(2));
   REQUIRE(scene.groups.size() == 1);
   CHECK(scene.groups[0].name == "pair");
   REQUIRE(scene.groups[0].shapes.size() == 2);
   CHECK(scene.groups[0].shapes[1].origin == scene.file + ": /groups/0/shapes/1");
   CHECK(num_triangles(scene.groups[0].shapes[1]) == 20);
-  REQUIRE(scene.instances.size() == 2);
+  REQUIRE(scene.instances.size() == 3);
+  CHECK(!scene.instances[0].transform_end);
+  REQUIRE(scene.instances[2].transform_end);
+  CHECK(scene.instances[2].transform_end->m[0][3] == 6);
   CHECK(scene.instances[0].group == 0);
   CHECK(scene.instances[0].origin == scene.file + ": /instances/0");
 }
@@ -252,7 +329,7 @@ TEST_CASE("scene file: nothing is generated for a file with an error") {
   CHECK(errors ==
         "scene.json:2:75: /oops: unknown key 'oops' in a scene; known keys: version, description, "
         "camera, "
-        "film, sampler, integrator, materials, lights, shapes, groups, instances\n");
+        "film, sampler, integrator, textures, materials, lights, shapes, groups, instances\n");
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   CHECK(seconds.count() < 0.1);
 }

@@ -17,20 +17,30 @@ const JsonSchema &schema() {
   return loaded;
 }
 
-Json everything() {
-  return Json::parse(read_text(source_path("tests/scene/valid/everything.json")));
+Json valid_scene(const std::string &name) {
+  return Json::parse(read_text(source_path("tests/scene/valid/" + name + ".json")));
 }
+Json everything() { return valid_scene("everything"); }
+/// A scene has one environment only: these have the others.
+std::vector<Json> valid_scenes() { return {everything(), valid_scene("sky"), valid_scene("map")}; }
 
 /// Errors that no JSON Schema can state: they compare one value with another, or ask the disk.
 bool is_beyond_schema(const std::string &errors) {
   for (const char *message :
        {"unknown material '",   "unknown group '",       "duplicate material name",
+        "unknown texture '",     "duplicate texture name", "is not sRGB",
+        "emission_scale is for", "normal_scale is for",   "bump_scale is for",
+        "are linear: leave out", "scale makes cubes",     "a .png, .jpg, .hdr or .exr",
         "duplicate group name", "position and look_at",  "up is [0, 0, 0]",
         "up is parallel",       "the axis is [0, 0, 0]", "the normal is [0, 0, 0]",
         "the crop reaches",     "2^30 pixels",           "out of range: the mesh",
         "for every vertex",     "for every triangle",    "one normal for each",
+        "one uv for each",       "one colour for each",
         "there is no file",     "an .obj or .ply file",  "amplitude must be less",
-        "more than 50 million", "every component of lo", "too large"}) {
+        "more than 50 million", "made of itself",        "nested more than", "; give",
+        "every component of lo", "too large",            "a second environment",
+        "an .hdr or .exr file", "an .ies file",          "inner_angle is larger",
+        "direction is [0",      "horizontal is "}) {
     if (errors.find(message) != std::string::npos) return true;
   }
   return false;
@@ -78,7 +88,8 @@ struct ObjectCase {
 /// All object schemas with an example, each in a scene that is valid around it.
 std::vector<ObjectCase> object_cases() {
   const Json base =
-      Json::parse(R"({"version": 1, "materials": [{"name": "example", "type": "diffuse"}],
+      Json::parse(R"({"version": 1, "materials": [{"name": "example", "type": "diffuse"},
+                                                  {"name": "other", "type": "diffuse"}],
                                     "groups": [{"name": "example", "shapes": []}]})");
   const std::vector<std::array<const char *, 2>> places = {{"camera", "/camera"},
                                                            {"film", "/film"},
@@ -86,6 +97,9 @@ std::vector<ObjectCase> object_cases() {
                                                            {"sampler", "/sampler"},
                                                            {"integrator", "/integrator"},
                                                            {"light", "/lights/0"},
+                                                           {"texture", "/textures/0"},
+                                                           {"texture_transform",
+                                                            "/textures/0/transform"},
                                                            {"material", "/materials/0"},
                                                            {"shape", "/shapes/0"},
                                                            {"group", "/groups/0"},
@@ -98,6 +112,9 @@ std::vector<ObjectCase> object_cases() {
       ObjectCase object = {variant, base, Json::json_pointer(place)};
       if (std::string(place) == "/instances/0/transform")
         object.scene["instances"] = Json::parse(R"([{"group": "example"}])");
+      if (std::string(place) == "/textures/0/transform")
+        object.scene["textures"] =
+            Json::parse(R"([{"name": "example", "type": "image", "file": "tiles.png"}])");
       object.scene[object.at] = variant.at("examples").at(0);
       cases.push_back(object);
     }
@@ -146,7 +163,7 @@ std::vector<std::string> keys_known_to_reader(const ObjectCase &object) {
 }  // namespace
 
 TEST_CASE("schema: valid scenes are valid and every example of the schema is read") {
-  CHECK(schema().accepts(everything()));
+  for (const Json &scene : valid_scenes()) CHECK(schema().accepts(scene));
   CHECK(schema().accepts(Json::parse(R"({"version": 1})")));
   for (const ObjectCase &object : object_cases()) {
     CAPTURE(object.scene.dump());
@@ -165,26 +182,30 @@ TEST_CASE(
     std::vector<std::string> described = keys_of(object.schema["properties"]);
     if (object.at.to_string() == "/instances/0/transform") {
       described = {"matrix", "rotate", "scale", "translate"};  // the schema has one object for each
-    } else if (object.schema["properties"].contains("file") ||
-               object.schema["properties"].contains("positions")) {
-      described = {"file",      "indices",   "material", "normals",
-                   "positions", "transform", "type"};  // two objects
+    } else if (object.scene[object.at].value("type", "") == "mesh") {
+      described = {"colours", "file",      "indices",   "material", "normals",
+                   "positions", "transform", "type",     "uvs"};  // two objects
     }
     CHECK(keys_known_to_reader(object) == described);
   }
 }
 
-TEST_CASE("schema: everything.json uses every key of the schema") {
+TEST_CASE("schema: the valid scenes use every key of the schema") {
   Json used;
-  const Json scene = everything();
-  for_each_value(scene, Json::json_pointer(),
-                 [&](const Json::json_pointer &at) { used[at.back()] = 0; });
+  for (const Json &scene : valid_scenes())
+    for_each_value(scene, Json::json_pointer(),
+                   [&](const Json::json_pointer &at) { used[at.back()] = 0; });
   for (const ObjectCase &object : object_cases()) {
     for (const std::string &key : keys_of(object.schema["properties"])) {
       CAPTURE(key);
       CHECK(used.contains(key));
     }
   }
+}
+
+/// Keys that must be there where `key` is.
+Json needed_with(const Json &schema, const std::string &key) {
+  return schema.value("dependentRequired", Json::object()).value(key, Json::array());
 }
 
 TEST_CASE("schema: the limits and needed keys of the schema are those of the reader") {
@@ -197,6 +218,8 @@ TEST_CASE("schema: the limits and needed keys of the schema are those of the rea
       const auto is_read = [&](const Json &value) {
         Json scene = object.scene;
         scene[object.at][key] = value;
+        for (const Json &with : needed_with(object.schema, key))
+          scene[object.at].emplace(with.get<std::string>(), value);
         const std::string errors = errors_without_generating(scene);
         return errors.empty() || is_beyond_schema(errors);
       };
@@ -235,23 +258,56 @@ TEST_CASE("schema: writing out the defaults changes nothing") {
     CHECK(errors_of(diagnostics) == "");
     Json all;
     const CameraDescription &camera = read.camera;
-    all["camera"] = {camera.position, camera.look_at,         camera.up,
-                     camera.fov,      camera.aperture_radius, camera.focus_distance};
+    all["camera"] = {camera.position,       camera.look_at,         camera.up,
+                     camera.fov,            camera.aperture_radius, camera.focus_distance,
+                     camera.kind,           camera.blades,          camera.blade_rotation,
+                     camera.height,         camera.angle};
     const FilmDescription &film = read.film;
     all["film"] = {film.width,        film.height, film.filter,  film.filter_radius,
                    film.filter_sigma, film.crop,   film.exposure};
     all["sampler"] = {read.sampler.kind, read.sampler.spp, read.sampler.seed};
-    all["integrator"] = {read.integrator.max_depth, read.integrator.roulette_depth};
+    all["integrator"] = {read.integrator.max_depth, read.integrator.roulette_depth,
+                         read.integrator.light_choice, read.integrator.light_points};
+    for (const LightDescription &light : read.lights) {
+      all["lights"].push_back({light.kind, light.emission, light.position, light.direction,
+                               light.inner_angle, light.outer_angle, light.angular_diameter,
+                               light.profile_intensity, light.horizontal});
+    }
+    if (const auto &sky = read.sky) {
+      all["sky"] = {sky->turbidity, sky->sun_direction, sky->ground_albedo,
+                    sky->angular_diameter, sky->sun, sky->scale};
+    }
+    for (const TextureDescription &texture : read.textures) {
+      all["textures"].push_back({texture.kind, texture.a, texture.b, texture.channel,
+                                 texture.to_texture, texture.srgb, texture.wrap_u, texture.wrap_v,
+                                 texture.nearest, texture.scale, texture.turbulence,
+                                 texture.octaves});
+    }
     for (const MaterialDescription &material : read.materials) {
       all["materials"].push_back({material.kind, material.reflectance, material.has_ior,
                                   material.eta, material.k, material.roughness, material.ior,
-                                  material.emission, material.two_sided});
+                                  material.emission, material.two_sided, material.anisotropic,
+                                  material.multiple_scattering, material.specular,
+                                  material.transmittance, material.opacity,
+                                  material.normal_scale, material.bump_scale, material.exponent,
+                                  material.has_absorption, material.absorption,
+                                  material.azimuthal_roughness, material.tilt,
+                                  material.specular_level, material.metallic,
+                                  material.transmission, material.clearcoat,
+                                  material.clearcoat_roughness, material.sheen,
+                                  material.sheen_roughness, material.blend_a, material.blend_b,
+                                  material.weight, material.is_null, material.one_sided});
     }
     for (const ShapeDescription &shape : read.shapes) {
       if (const auto *mesh = std::get_if<MeshShape>(&shape.shape)) {
         all["shapes"].push_back({checksum(mesh->data.positions), checksum(mesh->data.indices)});
       } else if (const auto *spheres = std::get_if<SpheresShape>(&shape.shape)) {
         all["shapes"].push_back(spheres->spheres);
+      } else if (const auto *curves = std::get_if<CurvesShape>(&shape.shape)) {
+        std::vector<double> numbers;
+        for (const auto &point : curves->points)
+          numbers.insert(numbers.end(), point.begin(), point.end());
+        all["shapes"].push_back({checksum(numbers), checksum(curves->sizes)});
       }
     }
     return all;
@@ -288,31 +344,32 @@ TEST_CASE("schema: the reader and the schema agree about every mutant of a scene
                                           Json::parse("[[1, 2, 3]]"),
                                           Json::parse(R"([{"type": "disk"}])"),
                                           Json::parse(R"({"name": 1})")};
-  const Json original = everything();
   int num_mutants = 0;
   const auto check_mutant = [&](const Json &mutant) {
     check_agreement(mutant);
     num_mutants++;
   };
-  for_each_value(original, Json::json_pointer(), [&](const Json::json_pointer &at) {
-    for (const Json &replacement : replacements) {
+  for (const Json &original : valid_scenes()) {
+    for_each_value(original, Json::json_pointer(), [&](const Json::json_pointer &at) {
+      for (const Json &replacement : replacements) {
+        Json mutant = original;
+        mutant[at] = replacement;
+        check_mutant(mutant);
+      }
       Json mutant = original;
-      mutant[at] = replacement;
-      check_mutant(mutant);
-    }
-    Json mutant = original;
-    Json &parent = mutant[at.parent_pointer()];
-    if (parent.is_array()) {
-      parent.erase(std::stoul(at.back()));
-      check_mutant(mutant);
-      mutant = original;
-      mutant[at.parent_pointer()].push_back(original[at]);
-      check_mutant(mutant);
-    } else {
-      parent.erase(at.back());
-      check_mutant(mutant);
-    }
-  });
+      Json &parent = mutant[at.parent_pointer()];
+      if (parent.is_array()) {
+        parent.erase(std::stoul(at.back()));
+        check_mutant(mutant);
+        mutant = original;
+        mutant[at.parent_pointer()].push_back(original[at]);
+        check_mutant(mutant);
+      } else {
+        parent.erase(at.back());
+        check_mutant(mutant);
+      }
+    });
+  }
   CHECK(num_mutants >= 2000);
   MESSAGE(num_mutants << " mutants");
 }

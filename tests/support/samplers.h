@@ -22,6 +22,14 @@ inline FrameView sampler_frame(SamplerKind kind, int spp = 64, int seed = 0, int
   return frame;
 }
 
+/// Pair `dimension` of samples `first` to `first` + n - 1.
+inline std::vector<Vec2> points(const FrameView &frame, uint32 scramble, int dimension, int first,
+                                int n) {
+  std::vector<Vec2> p;
+  for (int i = 0; i < n; ++i) p.push_back(sample_pair(frame, scramble, first + i, dimension));
+  return p;
+}
+
 /// True if the 2^m points have exactly one point in every elementary interval of area 2^-m, whatever its
 /// shape.
 inline bool is_net(const std::vector<Vec2> &points, int m) {

@@ -160,6 +160,11 @@ SceneView ToyScene::view() const {
   v.lights = lights.data();
   v.alias_threshold = alias_threshold.data();
   v.alias_other = alias_other.data();
+  textures.put_into(v);
+  v.curve_points = curve_points.data();
+  v.curve_along = curve_along.data();
+  v.curve_segments = curve_segments.data();
+  v.tables = tables.data();
   v.num_materials = static_cast<int32>(materials.size());
   v.num_geometries = static_cast<int32>(geometries.size());
   v.num_lights = static_cast<int32>(lights.size());
@@ -187,8 +192,18 @@ ToyScene random_scene(std::uint64_t seed, float size) {
   Random random(seed);
   ToyScene scene;
   scene.materials = toy_materials();
+  Random texture_random(seed + 1);
+  scene.textures = random_textures(texture_random);
+  Random table_random(seed + 2);
+  constexpr int kTables = 4;
+  for (int i = 0; i < kTables * PHALANX_ALBEDO_FLOATS; ++i)
+    scene.tables.push_back(table_random.between(0.01f, 0.99f));
   for (int i = 0; i <= PHALANX_FILTER_CELLS; ++i)
     scene.filter_offsets.push_back(static_cast<float>(i) / PHALANX_FILTER_CELLS - 0.5f);
+  scene.curve_points = {0, 0, 0, 0.1f,  0.2f, 0.9f, 0.1f, 0.05f, 0.9f, 0.8f, 0.3f, 0.02f,
+                        1, 1, 0, 0.01f, 0,    0,    1,    0.3f};
+  scene.curve_along = {0, 0.5f, 1, 0, 1};
+  scene.curve_segments = {0, 1, 3};
   for (const ShapeKind shape : {kMesh, kQuads, kSpheres, kDisks})
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
       const int32 g = scene.add_geometry(shape, static_cast<int32>(m), primitives_of(scene, shape));

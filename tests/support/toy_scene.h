@@ -4,6 +4,7 @@
 
 #include "../../kernels/physics/any_vertex.h"
 #include "random.h"
+#include "textures.h"
 
 namespace phalanx::test {
 
@@ -18,7 +19,12 @@ struct ToyScene {
   std::vector<Instance> instances;
   std::vector<Light> lights;
   std::vector<float> alias_threshold, filter_offsets;
+  std::vector<float> tables;  // of albedos; any numbers in (0, 1)
   std::vector<int32> alias_other;
+  // Two strands; no geometry refers to them.
+  std::vector<float> curve_points, curve_along;
+  std::vector<int32> curve_segments;
+  TextureSet textures;
 
   /// Valid while this lives and does not change.
   SceneView view() const;

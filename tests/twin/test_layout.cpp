@@ -4,7 +4,9 @@
 #include <doctest/doctest.h>
 
 #include <cstddef>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../../kernels/path_view.h"
@@ -46,11 +48,16 @@ TEST_CASE("layout: shared structs have the same sizes and offsets in C++ and in 
   check_layout("avx512skx", layout_avx512skx);
 }
 
-TEST_CASE("layout: no field was forgotten: fields fill the structs but for padding") {
-  // Four-byte structs have no padding: their sizes are the sums of their fields'.
-  CHECK(sizeof(Material) == 4 * (1 + 9 + 3 + 3 + 1));
-  CHECK(sizeof(Geometry) == 4 * 7);
-  CHECK(sizeof(Light) == 4 * (2 + 12 + 4 + 3));
-  CHECK(sizeof(Camera) == 4 * (12 + 3));
-  CHECK(sizeof(Instance) == 4 * (1 + 24));
+TEST_CASE("layout: no field was forgotten: those of structs without pointers fill them") {
+  std::map<std::string, std::size_t> filled, whole;
+#define FIELD_SIZE(type, field) filled[#type] += sizeof(std::declval<type &>().field);
+#define WHOLE_SIZE(type) whole[#type] = sizeof(type);
+  LAYOUT_LIST(FIELD_SIZE, WHOLE_SIZE)
+  for (const auto &[type, size] : whole) {
+    CAPTURE(type);
+    // Pointers bring padding with them, of less than their own size after every run of small fields.
+    const bool has_pointers = type.ends_with("View");
+    CHECK(filled[type] <= size);
+    if (!has_pointers) CHECK(filled[type] == size);
+  }
 }

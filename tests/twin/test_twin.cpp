@@ -11,6 +11,7 @@
 
 #include "core/parallel.h"
 #include "functions.h"
+#include "support/rich_lights.h"
 #include "support/toy_scene.h"
 #include "wavefront/isa.h"
 
@@ -105,6 +106,19 @@ void fill_bsdf(Columns &in, const Twin &twin, const ToyScene &scene, Random &ran
   }
 }
 
+/// Index, two roughnesses, three numbers in [0,1]: see twin_rich_bsdf. Some are smooth, isotropic, matched.
+void fill_rich_bsdf(Columns &in, const Twin &twin, const ToyScene &scene, Random &random) {
+  fill_bsdf(in, twin, scene, random);
+  for (int row = 0; row < kRows; ++row) {
+    if (random.chance(0.1)) in.f(8, row) = 0;
+    if (random.chance(0.4)) in.f(5, row) = -in.f(5, row);
+    in.f(9, row) = random.chance(0.1) ? 1.00001f : std::exp(random.between(-1, 1));
+    in.f(10, row) = std::pow(10.0f, random.between(-3, 0));
+    in.f(11, row) = random.chance(0.3) ? in.f(10, row) : std::pow(10.0f, random.between(-3, 0));
+    for (const int c : {12, 13, 14}) in.f(c, row) = random.unit();
+  }
+}
+
 void fill_rays(Columns &in, const Twin &twin, const ToyScene &scene, Random &random) {
   for (int row = 0; row < kRows; ++row) {
     const AimedRay ray = aimed_ray(scene, random, 1);
@@ -124,6 +138,18 @@ void fill_rays(Columns &in, const Twin &twin, const ToyScene &scene, Random &ran
       in.i(6, row) = random.below(1000);
     }
   }
+}
+
+/// Places on surfaces and, in the whole numbers, textures; some rows have none (-1).
+void fill_texture_points(Columns &in, const Twin &twin, const ToyScene &scene, Random &random) {
+  fill_random(in, twin, random, -3, 3);
+  const auto num_textures = static_cast<int>(scene.textures.textures.size());
+  const bool may_be_none = std::string(twin.name) != "texture";
+  for (int row = 0; row < kRows; ++row)
+    for (int c = 0; c < twin.ints; ++c) {
+      in.i(c, row) = row / 64 % 2 == 0 ? row / 64 % num_textures : random.below(num_textures);
+      if (may_be_none && random.chance(0.1)) in.i(c, row) = -1;
+    }
 }
 
 /// Inputs that make sense to the function, and some that barely do.
@@ -150,6 +176,16 @@ Columns make_inputs(const Twin &twin, const ToyScene &scene) {
         in.f(0, row) *= std::exp2(random.between(-60, 60));
         in.f(1, row) *= std::exp2(random.between(-20, 20));
       }
+  } else if (name == "texture" || name == "relief" || name == "textured") {
+    fill_texture_points(in, twin, scene, random);
+  } else if (name == "noise" || name == "wrap_texels") {
+    fill_random(in, twin, random, -5, 5);
+    for (int row = 0; row < kRows && name == "wrap_texels"; ++row) {
+      in.i(0, row) = 1 + random.below(random.chance(0.5) ? 4 : 1 << 20);
+      in.i(1, row) = random.below(3);
+      in.i(2, row) = random.below(2);
+      if (random.chance(0.1)) in.f(0, row) = std::numeric_limits<float>::quiet_NaN();
+    }
   } else if (name == "frame") {
     for (int row = 0; row < kRows; ++row) {
       in.put(0, row, random.chance(0.01) ? vec3(0, -0.0f, -1) : random.direction());
@@ -166,18 +202,28 @@ Columns make_inputs(const Twin &twin, const ToyScene &scene) {
     }
   } else if (name == "diffuse" || name == "mirror" || name == "dielectric" || name == "conductor") {
     fill_bsdf(in, twin, scene, random);
-  } else if (name == "camera" || name == "light_choice") {
+  } else if (twin.floats == 15 && twin.ints == 1) {
+    fill_rich_bsdf(in, twin, scene, random);
+  } else if (name == "camera" || name == "wide_camera" || name == "light_choice") {
     for (int row = 0; row < kRows; ++row) {
       for (int c = 0; c < twin.floats; ++c)
         in.f(c, row) = random.chance(0.05) ? 1 - 0x1p-24f : random.unit();
       for (int c = 0; c < twin.ints; ++c) in.i(c, row) = static_cast<int32>(random.bits());
     }
-  } else if (name == "light_sample" || name == "light_density") {
+  } else if (name == "light_sample" || name == "light_density" || name == "rich_light_sample" ||
+             name == "rich_light_density") {
     for (int row = 0; row < kRows; ++row) {
       in.put(0, row, random.point(4));
       for (int c = 3; c < twin.floats; ++c) in.f(c, row) = random.unit();
       if (twin.floats > 7) in.put(6, row, random.direction());
       if (twin.ints > 0) in.i(0, row) = row / 64 % 2 == 0 ? row / 64 : random.below(1000);
+    }
+  } else if (name == "infinite_light" || name == "solid_angle") {
+    for (int row = 0; row < kRows; ++row) {
+      for (int c = 0; c < twin.floats; ++c)
+        in.f(c, row) = random.chance(0.05) ? edge_value(random) : random.unit();
+      in.put(0, row, name == "solid_angle" ? random.point(2) : random.direction());
+      if (name == "solid_angle") in.put(3, row, random.direction());
     }
   } else if (name == "sphere" || name == "disk") {
     fill_random(in, twin, random, -3, 3);
@@ -230,6 +276,26 @@ double share_of_nan(const Twin &twin, const std::vector<float> &results) {
   return nan / (static_cast<double>(twin.results) * kRows);
 }
 
+/// Runs a twin on every instruction set that is there.
+void check_twin(const Twin &twin, const ToyScene &scene, const SceneView &view,
+                const FrameView &frame) {
+  const Columns in = make_inputs(twin, scene);
+  const char *const isas[] = {"sse4", "avx2", "avx512skx"};
+  for (std::size_t k = 0; k < std::size(isas); ++k) {
+    if (twin.kernels[k] == nullptr || !isa_supported(isas[k])) continue;
+    std::vector<float> results(static_cast<std::size_t>(twin.results) * kRows, -12345.0f);
+    twin.kernels[k](&view, &frame, in.floats(), in.ints(), results.data(), kRows);
+    std::string first;
+    const int differing = differences(twin, in, results, view, frame, first);
+    CAPTURE(std::string(twin.name));
+    CAPTURE(std::string(isas[k]));
+    CAPTURE(first);
+    CHECK(differing == 0);
+    const bool bits = std::string(twin.name) == "hashes";  // any bits may come back
+    if (!bits) CHECK(share_of_nan(twin, results) < 0.2);
+  }
+}
+
 }  // namespace
 
 #ifdef PHALANX_FAST
@@ -247,22 +313,38 @@ TEST_CASE("twin: every physics function gives the same bits in C++ and in ISPC" 
     FrameView frame = scene.frame();
     frame.sampler = sampler;
     if (sampler == kIndependentSampler) frame.camera.lens_radius = 0;
-    for (const Twin &twin : kTwins) {
-      const Columns in = make_inputs(twin, scene);
-      const char *const isas[] = {"sse4", "avx2", "avx512skx"};
-      for (std::size_t k = 0; k < std::size(isas); ++k) {
-        if (twin.kernels[k] == nullptr || !isa_supported(isas[k])) continue;
-        std::vector<float> results(static_cast<std::size_t>(twin.results) * kRows, -12345.0f);
-        twin.kernels[k](&view, &frame, in.floats(), in.ints(), results.data(), kRows);
-        std::string first;
-        const int differing = differences(twin, in, results, view, frame, first);
-        CAPTURE(std::string(twin.name));
-        CAPTURE(std::string(isas[k]));
-        CAPTURE(first);
-        CHECK(differing == 0);
-        const bool bits = std::string(twin.name) == "hashes";  // any bits may come back
-        if (!bits) CHECK(share_of_nan(twin, results) < 0.2);
-      }
-    }
+    for (const Twin &twin : kTwins) check_twin(twin, scene, view, frame);
+  }
+}
+
+TEST_CASE("twin: other samplers and cameras" * doctest::skip(!kExact)) {
+  const ToyScene scene = random_scene(123, 1);
+  const SceneView view = scene.view();
+  const FlushDenormals flush;
+  for (const int32 kind : {kPerspective, kOrthographic, kEquirectangular, kFisheye}) {
+    FrameView frame = scene.frame();
+    frame.sampler = kStratifiedSampler + kind % 3;
+    frame.spp = kind == kFisheye ? 60 : 64;
+    frame.camera.kind = kind;
+    frame.camera.half_height = 2.5f;
+    frame.camera.half_angle_turns = 0.3f;
+    frame.camera.blades = 5;
+    frame.camera.blade_turns = 0.1f;
+    for (const Twin &twin : kTwins)
+      for (const char *name : {"sample_pair", "samplers", "camera", "wide_camera", "start_path"})
+        if (std::string(twin.name) == name) check_twin(twin, scene, view, frame);
+  }
+}
+
+TEST_CASE("twin: lights of every kind, chosen by a table and by a tree" * doctest::skip(!kExact)) {
+  const ToyScene toy = random_scene(123, 1);
+  const FrameView frame = toy.frame();
+  const FlushDenormals flush;
+  for (const bool tree : {false, true}) {
+    const Scene scene = any_lights(123, tree);
+    const SceneView view = scene.view();
+    for (const Twin &twin : kTwins)
+      for (const char *name : {"rich_light_sample", "rich_light_density", "infinite_light"})
+        if (std::string(twin.name) == name) check_twin(twin, toy, view, frame);
   }
 }

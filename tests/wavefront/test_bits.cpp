@@ -126,7 +126,7 @@ TEST_CASE("wavefront: another seed gives another picture, the same seed the same
 }
 
 TEST_CASE("wavefront: stages that work on lists fill their gangs") {
-  const BuiltScene scene = build_file("scenes/cornell-glass.json", "sse4");
+  const BuiltScene scene = build_file("scenes/cornell-glass.json", isas_here().front());
   const RenderResult r = render_scene(scene, small(Mode::kWavefront, 64, 16));
   std::int64_t active = 0, total = 0;
   for (const StageStats &s : r.stats.stages) {
