@@ -60,8 +60,8 @@ def side_by_side(path, ours, peer):
     z = (grey[0] - grey[1]) / np.maximum(error, NOISE_FREE * grey[1] + 1e-12)
     z = np.clip(z / 5, -1, 1)[..., None]
     colours = np.where(z > 0, 1 - z * [0, 1, 1], 1 + z * [1, 1, 0])
-    exposure = 0.18 / max(np.median(means[1]), 1e-6)
-    linear = np.clip(np.hstack(means) * min(exposure, 1 / np.percentile(means[1], 90)), 0, 1)
+    white = max(np.percentile(means[1], 95), 1e-6)
+    linear = np.clip(np.hstack(means) / white, 0, 1)
     srgb = np.where(linear < 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
     picture = np.hstack([srgb, colours]) * 255 + 0.5
     mi.Bitmap(picture.astype(np.uint8)).write(path)

@@ -4,8 +4,8 @@
 // picture of the equirectangular camera is a map. Radiance is bilinear between the middles of texels;
 // directions are drawn uniformly within a texel's exact solid angle, so the poles are nothing special.
 #pragma once
-#include "mathx.h"
 #include "../scene_view.h"
+#include "mathx.h"
 
 PHALANX_BEGIN
 
@@ -28,7 +28,8 @@ PHYS Frame environment_frame(const UNI SceneView &scene) {
 PHYS Vec3 environment_texel(const UNI SceneView &scene, int32 column, int32 row) {
   const int32 last = scene.environment_width - 1;
   const int32 x = column < 0 ? last : (column > last ? 0 : column);
-  const int32 y = row < 0 ? 0 : (row < scene.environment_height ? row : scene.environment_height - 1);
+  const int32 y =
+      row < 0 ? 0 : (row < scene.environment_height ? row : scene.environment_height - 1);
   const int32 at = 3 * (y * scene.environment_width + x);
   return vec3(scene.environment_texels[at], scene.environment_texels[at + 1],
               scene.environment_texels[at + 2]);
@@ -43,9 +44,10 @@ PHYS Vec3 environment_radiance(const UNI SceneView &scene, Vec2 uv) {
   const int32 j = to_int(above);
   const float fx = x - left;
   const float fy = y - above;
-  const Vec3 upper = environment_texel(scene, i, j) * (1.0f - fx) + environment_texel(scene, i + 1, j) * fx;
-  const Vec3 lower =
-      environment_texel(scene, i, j + 1) * (1.0f - fx) + environment_texel(scene, i + 1, j + 1) * fx;
+  const Vec3 upper =
+      environment_texel(scene, i, j) * (1.0f - fx) + environment_texel(scene, i + 1, j) * fx;
+  const Vec3 lower = environment_texel(scene, i, j + 1) * (1.0f - fx) +
+                     environment_texel(scene, i + 1, j + 1) * fx;
   return upper * (1.0f - fy) + lower * fy;
 }
 
@@ -71,7 +73,8 @@ PHYS float environment_pdf(const UNI SceneView &scene, Vec2 uv) {
   const int32 row = to_int(uv.y * to_float(scene.environment_height));
   const int32 last_column = scene.environment_width - 1;
   const int32 last_row = scene.environment_height - 1;
-  return texel_pdf(scene, column < last_column ? column : last_column, row < last_row ? row : last_row);
+  return texel_pdf(scene, column < last_column ? column : last_column,
+                   row < last_row ? row : last_row);
 }
 
 /// An interval of a distribution function, and how far into it, in [0, 1).
@@ -87,8 +90,10 @@ PHYS Interval find_interval(const UNI double *UNI cdf, int32 first, int32 count,
   int32 hi = count;
   while (hi - lo > 1) {
     const int32 middle = (lo + hi) >> 1;
-    if (cdf[first + middle] <= x) lo = middle;
-    else hi = middle;
+    if (cdf[first + middle] <= x)
+      lo = middle;
+    else
+      hi = middle;
   }
   Interval r;
   r.index = lo;
@@ -100,14 +105,15 @@ PHYS Interval find_interval(const UNI double *UNI cdf, int32 first, int32 count,
 struct EnvironmentSample {
   Vec3 direction;  // unit, in the world
   Vec2 uv;
-  float pdf;       // per solid angle
+  float pdf;  // per solid angle
 };
 
 /// Draws a texel by its brightness and size, and a direction uniformly within.
 PHYS EnvironmentSample sample_environment(const UNI SceneView &scene, Vec2 u) {
   const Interval row = find_interval(scene.environment_rows, 0, scene.environment_height, u.y);
-  const Interval column = find_interval(scene.environment_columns, row.index * (scene.environment_width + 1),
-                                        scene.environment_width, u.x);
+  const Interval column =
+      find_interval(scene.environment_columns, row.index * (scene.environment_width + 1),
+                    scene.environment_width, u.x);
   // From the nearer pole: there 1 - cos keeps the digits that cos has lost.
   const bool south = 2 * row.index >= scene.environment_height;
   const float edge = to_float(south ? scene.environment_height - 1 - row.index : row.index);
@@ -123,7 +129,8 @@ PHYS EnvironmentSample sample_environment(const UNI SceneView &scene, Vec2 u) {
   const SinCos around = sincos_turns(x - 0.5f);
   EnvironmentSample s;
   s.uv = vec2(x, 2.0f * atan2_turns(ring, height));
-  s.direction = to_world(environment_frame(scene), vec3(ring * around.sine, height, -ring * around.cosine));
+  s.direction =
+      to_world(environment_frame(scene), vec3(ring * around.sine, height, -ring * around.cosine));
   s.pdf = texel_pdf(scene, column.index, row.index);
   return s;
 }

@@ -1,7 +1,7 @@
 // Light that leaves a point unequally in different directions: spots and measured luminaires.
 #pragma once
-#include "mathx.h"
 #include "../scene_view.h"
+#include "mathx.h"
 
 PHALANX_BEGIN
 

@@ -63,7 +63,8 @@ PHYS float sampled_solid_angle(Light light, Vec3 origin) {
   float omega = 0.0f;
   if (light.by_solid_angle != 0) {
     if (light.kind == kQuadLight) {
-      const SphericalRectangle r = spherical_rectangle(light.p - origin, light.a, light.b, light.normal);
+      const SphericalRectangle r =
+          spherical_rectangle(light.p - origin, light.a, light.b, light.normal);
       omega = r.solid_angle;
     } else {
       const SphericalTriangle t =
@@ -213,9 +214,12 @@ PHYS_CALL LightSample sample_light_rich(const UNI SceneView &scene, Vec3 origin,
   const ChosenLight choice = choose_light_rich(scene, origin, u_choice);
   const Light light = fetch(scene.lights, choice.light);
   LightSample s;
-  if (light.kind < kPointLight) s = sample_surface(scene, light, origin, u);
-  else if (light.kind < kDirectionalLight) s = sample_point(scene, light, origin);
-  else s = sample_infinite(scene, light, origin, u);
+  if (light.kind < kPointLight)
+    s = sample_surface(scene, light, origin, u);
+  else if (light.kind < kDirectionalLight)
+    s = sample_point(scene, light, origin);
+  else
+    s = sample_infinite(scene, light, origin, u);
   s.pdf = s.pdf * choice.pdf;
   if (!(s.distance > 0.0f) || !is_finite(s.pdf) || !all_finite(s.radiance)) s.pdf = 0.0f;
   return s;
@@ -236,8 +240,7 @@ PHYS float escape_weight(float bsdf_pdf, float pdf) {
 
 /// Radiance that comes from beyond the scene, against the unit vector `direction`, weighted for a ray that
 /// was sampled with density bsdf_pdf at a surface; 0 for rays of the camera and of delta scattering.
-PHYS_CALL Vec3 infinite_radiance(const UNI SceneView &scene, Vec3, Vec3 direction,
-                                 float bsdf_pdf) {
+PHYS_CALL Vec3 infinite_radiance(const UNI SceneView &scene, Vec3, Vec3 direction, float bsdf_pdf) {
   Vec3 sum = scene.environment;
   for (UNI int32 i = scene.num_lights - scene.num_infinite_lights; i < scene.num_lights; i++) {
     const Light light = scene.lights[i];

@@ -91,25 +91,29 @@ struct ChosenLight {
   float pdf;
 };
 
+#define PHALANX_LIGHT_TREE_DEPTH 31  // turns at most: bits of Light::path
+
 /// A light for `origin`. A path of many turns needs more bits than a float has: u.y continues u.x.
 PHYS ChosenLight choose_in_tree(const UNI SceneView &scene, Vec3 origin, float u, float more_bits) {
   double x = (double)u + (double)more_bits * (double)5.9604644775390625e-8f;
   ChosenLight c;
   c.pdf = 1.0f;
   int32 first = scene.light_nodes[0].first;
-  while (first >= 0) {
-    const float p = first_probability(scene, first, origin);
-    const double share = (double)p;
-    const bool right = x >= share;
-    if (right) {
-      x = (x - share) / ((double)1.0f - share);
-      c.pdf = c.pdf * (1.0f - p);
-    } else {
-      x = x / share;
-      c.pdf = c.pdf * p;
+  for (UNI int32 level = 0; level < PHALANX_LIGHT_TREE_DEPTH; level++) {
+    if (first >= 0) {
+      const float p = first_probability(scene, first, origin);
+      const double share = (double)p;
+      const bool right = x >= share;
+      if (right) {
+        x = (x - share) / ((double)1.0f - share);
+        c.pdf = c.pdf * (1.0f - p);
+      } else {
+        x = x / share;
+        c.pdf = c.pdf * p;
+      }
+      x = x < (double)0.99999994f ? x : (double)0.99999994f;
+      first = scene.light_nodes[first + (right ? 1 : 0)].first;
     }
-    x = x < (double)0.99999994f ? x : (double)0.99999994f;
-    first = scene.light_nodes[first + (right ? 1 : 0)].first;
   }
   c.light = -1 - first;
   return c;
@@ -119,11 +123,13 @@ PHYS ChosenLight choose_in_tree(const UNI SceneView &scene, Vec3 origin, float u
 PHYS float tree_pdf(const UNI SceneView &scene, int32 path, int32 depth, Vec3 origin) {
   float pdf = 1.0f;
   int32 first = scene.light_nodes[0].first;
-  for (int32 level = 0; level < depth; level++) {
-    const int32 turn = (path >> level) & 1;
-    const float p = first_probability(scene, first, origin);
-    pdf = pdf * (turn != 0 ? 1.0f - p : p);
-    first = scene.light_nodes[first + turn].first;
+  for (UNI int32 level = 0; level < PHALANX_LIGHT_TREE_DEPTH; level++) {
+    if (level < depth) {
+      const int32 turn = (path >> level) & 1;
+      const float p = first_probability(scene, first, origin);
+      pdf = pdf * (turn != 0 ? 1.0f - p : p);
+      first = scene.light_nodes[first + turn].first;
+    }
   }
   return pdf;
 }

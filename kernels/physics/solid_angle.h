@@ -39,8 +39,7 @@ PHYS SphericalRectangle spherical_rectangle(Vec3 corner, Vec3 a, Vec3 b, Vec3 n)
   r.y1 = r.y0 + depth;
   r.height = abs_of(dot(corner, n));
   r.left = corner_angle(r.x0, r.y1, r.height) - corner_angle(r.x0, r.y0, r.height);
-  r.solid_angle =
-      corner_angle(r.x1, r.y1, r.height) - corner_angle(r.x1, r.y0, r.height) - r.left;
+  r.solid_angle = corner_angle(r.x1, r.y1, r.height) - corner_angle(r.x1, r.y0, r.height) - r.left;
   return r;
 }
 

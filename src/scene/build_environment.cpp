@@ -30,7 +30,8 @@ double make_distribution(const std::vector<double> &weights, double *cdf) {
   cdf[0] = 0;
   for (size_t i = 0; i < weights.size(); ++i) {
     below += weights[i];
-    cdf[i + 1] = sum > 0 ? below / sum : static_cast<double>(i + 1) / static_cast<double>(weights.size());
+    cdf[i + 1] =
+        sum > 0 ? below / sum : static_cast<double>(i + 1) / static_cast<double>(weights.size());
   }
   return sum;
 }
@@ -95,9 +96,9 @@ EnvironmentMap read_environment_map(const EnvironmentMapDescription &description
     map.turns = description.rotation / 360;
     const std::int64_t num_bad = copy_texels(planes, description.scale, map);
     if (num_bad > 0)
-      diagnostics.warn(problem_at(
-          description.origin, std::to_string(num_bad) + " values of '" + description.file +
-                                  "' are negative, not finite or above 1e36: they are black"));
+      diagnostics.warn(problem_at(description.origin,
+                                  std::to_string(num_bad) + " values of '" + description.file +
+                                      "' are negative, not finite or above 1e36: they are black"));
   } catch (const InputError &error) {
     for (const Problem &problem : error.problems())
       diagnostics.error(problem_at(description.origin, problem.text()));

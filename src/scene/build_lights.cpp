@@ -180,7 +180,8 @@ void sample_by_solid_angle(std::vector<Light> &lights) {
 
 /// One table over the lights from `first` on.
 void choose_by_table(Scene &scene, const std::vector<double> &weights, size_t first, double share) {
-  AliasTable table = make_alias_table({weights.begin() + static_cast<std::ptrdiff_t>(first), weights.end()});
+  AliasTable table =
+      make_alias_table({weights.begin() + static_cast<std::ptrdiff_t>(first), weights.end()});
   scene.alias_threshold.assign(first, 1.0f);
   scene.alias_other.assign(first, 0);
   for (size_t i = 0; i < table.probability.size(); ++i) {
@@ -200,7 +201,8 @@ void choose_by_tree(Scene &scene, const std::vector<double> &weights) {
   const double finite = std::accumulate(weights.begin(), border, 0.0);
   const double infinite = std::accumulate(border, weights.end(), 0.0);
   const double share =
-      num_infinite == 0 ? 0 : std::clamp(infinite / (finite + infinite), kLeastShare, 1 - kLeastShare);
+      num_infinite == 0 ? 0
+                        : std::clamp(infinite / (finite + infinite), kLeastShare, 1 - kLeastShare);
   scene.infinite_share = static_cast<float>(share);
   choose_by_table(scene, weights, num_finite, static_cast<double>(scene.infinite_share));
   scene.light_nodes = build_light_tree(scene.lights, {weights.begin(), border});

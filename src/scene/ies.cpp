@@ -13,8 +13,8 @@ namespace {
 
 using std::size_t;
 
-constexpr int kMaxAngles = 100'000;          // each way
-constexpr double kMaxValues = 4'000'000;     // of both ways together
+constexpr int kMaxAngles = 100'000;       // each way
+constexpr double kMaxValues = 4'000'000;  // of both ways together
 constexpr double kMaxCandela = 1e30;
 
 /// Numbers one after another, with the line of each.
@@ -60,9 +60,7 @@ class IesText {
   }
 
  private:
-  static bool is_space(char c) {
-    return c == ' ' || c == ',' || (c >= '\t' && c <= '\r');
-  }
+  static bool is_space(char c) { return c == ' ' || c == ',' || (c >= '\t' && c <= '\r'); }
 
   std::string_view text_, rest_;
   const std::string &name_;
@@ -116,8 +114,8 @@ struct Place {
 Place find_place(const std::vector<double> &values, double x) {
   if (values.size() < 2) return {0, 0};
   const auto above = std::upper_bound(values.begin(), values.end(), x) - values.begin();
-  const auto i = static_cast<size_t>(std::clamp<std::ptrdiff_t>(
-      above - 1, 0, static_cast<std::ptrdiff_t>(values.size()) - 2));
+  const auto i = static_cast<size_t>(
+      std::clamp<std::ptrdiff_t>(above - 1, 0, static_cast<std::ptrdiff_t>(values.size()) - 2));
   return {i, std::clamp((x - values[i]) / (values[i + 1] - values[i]), 0.0, 1.0)};
 }
 
@@ -159,7 +157,8 @@ IesProfile parse_ies(const std::string &bytes, const std::string &name) {
   const auto num_values = static_cast<size_t>(num_vertical) * static_cast<size_t>(num_horizontal);
   for (size_t i = 0; i < num_values; ++i) {
     const double candela = text.number("candela value " + std::to_string(i + 1) + " of " +
-                                       std::to_string(num_values)) * factor;
+                                       std::to_string(num_values)) *
+                           factor;
     if (!(candela >= 0 && candela <= kMaxCandela))
       text.fail("candela values must be in [0, 1e30] after all factors");
     profile.candela.push_back(candela);

@@ -7,10 +7,11 @@ namespace phalanx {
 
 /// Luminous intensity over directions.
 struct IesProfile {
-  std::vector<double> vertical;    // degrees from the luminaire's axis, ascending, at least 2
-  std::vector<double> horizontal;  // degrees around it, ascending, 0 to 90, 180 or 360, 90 to 270; or one
-  std::vector<double> candela;     // [horizontal][vertical], all factors of the file applied
-  bool is_tilted = false;          // the file asks for a tilt of the lamp, which is not applied
+  std::vector<double> vertical;  // degrees from the luminaire's axis, ascending, at least 2
+  std::vector<double>
+      horizontal;  // degrees around it, ascending, 0 to 90, 180 or 360, 90 to 270; or one
+  std::vector<double> candela;  // [horizontal][vertical], all factors of the file applied
+  bool is_tilted = false;       // the file asks for a tilt of the lamp, which is not applied
 };
 
 /// `name` is for messages. Throws InputError with line, cause and what was expected.

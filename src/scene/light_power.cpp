@@ -62,10 +62,13 @@ double squared_radius(const Scene &scene) {
 }
 
 double finite_power(const Scene &scene, const SceneView &view, const Light &light, int side) {
-  if (light.kind == kPointLight) return 4 * luminance_of(light.emission) * mean_intensity(scene, light);
+  if (light.kind == kPointLight)
+    return 4 * luminance_of(light.emission) * mean_intensity(scene, light);
   if (light.kind == kSpotLight) {
-    const double inner = static_cast<double>(light.cos_inner), outer = static_cast<double>(light.cos_outer);
-    return 2 * luminance_of(light.emission) * (1 - 0.5 * (inner + outer)) * mean_intensity(scene, light);
+    const double inner = static_cast<double>(light.cos_inner),
+                 outer = static_cast<double>(light.cos_outer);
+    return 2 * luminance_of(light.emission) * (1 - 0.5 * (inner + outer)) *
+           mean_intensity(scene, light);
   }
   return mean_luminance(view, light, side) * static_cast<double>(light.area) *
          (light.two_sided != 0 ? 2.0 : 1.0);

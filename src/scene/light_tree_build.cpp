@@ -119,10 +119,11 @@ void add_bounds(LightBounds &bounds, const LightBounds &other) {
 double cost(const LightBounds &bounds) {
   if (bounds.power == 0) return 0;
   const double o = bounds.theta_o, w = std::min(o + bounds.theta_e, kPi);
-  const double cone = 2 * kPi * (1 - cosine(o)) +
-                      kPi / 2 * (2 * (w - o) * sine(o) - cosine(o - 2 * w) + cosine(o));
+  const double cone =
+      2 * kPi * (1 - cosine(o)) + kPi / 2 * (2 * (w - o) * sine(o) - cosine(o - 2 * w) + cosine(o));
   const Vec3 size = bounds.hi - bounds.lo;
-  return bounds.power * cone * (d(size.x) * d(size.x) + d(size.y) * d(size.y) + d(size.z) * d(size.z));
+  return bounds.power * cone *
+         (d(size.x) * d(size.x) + d(size.y) * d(size.y) + d(size.z) * d(size.z));
 }
 
 float component(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
@@ -159,8 +160,7 @@ LightTreeBuilder::LightTreeBuilder(std::vector<Light> &lights, const std::vector
   nodes_.reserve(2 * power.size());
   for (size_t i = 0; i < power.size(); ++i) {
     const LightBounds bounds = bounds_of(lights[i], power[i] / total);
-    leaves_.push_back(
-        {bounds, (bounds.lo + bounds.hi) * 0.5f, static_cast<std::int32_t>(i)});
+    leaves_.push_back({bounds, (bounds.lo + bounds.hi) * 0.5f, static_cast<std::int32_t>(i)});
   }
 }
 
@@ -198,10 +198,10 @@ size_t LightTreeBuilder::split_by_cost(size_t first, size_t end) {
     }
   }
   if (best_axis < 0) return first;
-  const auto middle = std::partition(
-      leaves_.begin() + static_cast<std::ptrdiff_t>(first),
-      leaves_.begin() + static_cast<std::ptrdiff_t>(end),
-      [&](const Leaf &leaf) { return bin_of(leaf, best_axis) < best_border; });
+  const auto middle =
+      std::partition(leaves_.begin() + static_cast<std::ptrdiff_t>(first),
+                     leaves_.begin() + static_cast<std::ptrdiff_t>(end),
+                     [&](const Leaf &leaf) { return bin_of(leaf, best_axis) < best_border; });
   return static_cast<size_t>(middle - leaves_.begin());
 }
 

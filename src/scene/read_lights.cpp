@@ -76,7 +76,8 @@ void read_environment(ObjectReader &object, SceneReader &reader, SceneDescriptio
   }
   EnvironmentMapDescription map;
   map.origin = reader.source.file() + ": " + object.node().path;
-  map.file = read_file_name(object, reader, {".hdr", ".exr", ".HDR", ".EXR"}, "an .hdr or .exr file");
+  map.file =
+      read_file_name(object, reader, {".hdr", ".exr", ".HDR", ".EXR"}, "an .hdr or .exr file");
   object.number("rotate", kTurn, map.rotation);
   object.colour("scale", kScale, map.scale);
   scene.environment_map = map;

@@ -201,7 +201,8 @@ void Atmosphere::fill_multiple() {
           const Double3 t = sun_transmittance(at, cosine_at(s, at));
           for (size_t c = 0; c < 3; ++c) {
             const double rest = exponential(-m.extinction[c] * ds);
-            const double scattered = through[c] * (1 - rest) / m.extinction[c] * (m.rayleigh[c] + m.mie[c]);
+            const double scattered =
+                through[c] * (1 - rest) / m.extinction[c] * (m.rayleigh[c] + m.mie[c]);
             second[c] += scattered * t[c] / (4 * kPi);
             more[c] += scattered;
             through[c] *= rest;
@@ -245,7 +246,8 @@ Double3 Atmosphere::radiance(const Double3 &view, const Double3 &sun) const {
 
 void put(EnvironmentMap &map, int column, int row, const Double3 &radiance) {
   float *const texel = &map.texels[(static_cast<size_t>(row) * static_cast<size_t>(map.width) +
-                                    static_cast<size_t>(column)) * 3];
+                                    static_cast<size_t>(column)) *
+                                   3];
   for (size_t c = 0; c < 3; ++c) texel[c] = static_cast<float>(radiance[c]);
 }
 

@@ -14,8 +14,9 @@
 namespace phalanx {
 
 struct Sky {
-  EnvironmentMap map;      // sky and ground. Its frame: y up, -z towards the sun's azimuth
-  Double3 sun = {0, 0, 0};  // radiance of the sun's disc as seen through the air; black below the horizon
+  EnvironmentMap map;  // sky and ground. Its frame: y up, -z towards the sun's azimuth
+  Double3 sun = {0, 0,
+                 0};  // radiance of the sun's disc as seen through the air; black below the horizon
 };
 
 /// Any turbidity from 1 on, any direction of the sun. Takes about half a second.

@@ -36,7 +36,8 @@ float cosine_of(double degrees) { return sincos_turns(static_cast<float>(degrees
 /// Tables of the IES files that lights have asked for so far: many luminaires share one.
 class ProfileTables {
  public:
-  ProfileTables(Scene &scene, Diagnostics &diagnostics) : scene_(scene), diagnostics_(diagnostics) {}
+  ProfileTables(Scene &scene, Diagnostics &diagnostics)
+      : scene_(scene), diagnostics_(diagnostics) {}
 
   struct Table {
     LightProfile profile;  // without a frame
@@ -60,8 +61,8 @@ void ProfileTables::read(const LightDescription &light, Table &result) {
   try {
     const IesProfile profile = parse_ies(read_file(light.profile), light.profile);
     if (profile.is_tilted)
-      diagnostics_.warn(problem_at(light.origin, "'" + light.profile +
-                                                     "' asks for a tilt of its lamp, which is ignored"));
+      diagnostics_.warn(problem_at(
+          light.origin, "'" + light.profile + "' asks for a tilt of its lamp, which is ignored"));
     const IesTable table = make_ies_table(profile);
     if (!(table.peak > 0))
       throw InputError("'" + light.profile + "': all of its light is within half a degree");
@@ -98,7 +99,8 @@ void add_directional(const LightDescription &from, Scene &scene, std::vector<dou
   light.normal = to_vec3({-d[0], -d[1], -d[2]});
   Double3 emission = from.emission;
   if (from.angular_diameter > 0) {
-    const double quarter = sine_of(from.angular_diameter / 4), half = sine_of(from.angular_diameter / 2);
+    const double quarter = sine_of(from.angular_diameter / 4),
+                 half = sine_of(from.angular_diameter / 2);
     light.one_minus_cos = static_cast<float>(2 * quarter * quarter);
     for (double &e : emission) e /= kPi * half * half;
     scene.has_environment = true;
@@ -164,8 +166,7 @@ void add_point_lights(const SceneDescription &description, Scene &scene, Diagnos
       if (!(table.peak > 0)) continue;
       set_profile(from, table, light, scene);
     }
-    if (luminance(light.emission) > 0.0f)
-      scene.lights.push_back(light);
+    if (luminance(light.emission) > 0.0f) scene.lights.push_back(light);
   }
 }
 

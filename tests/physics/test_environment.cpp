@@ -34,14 +34,16 @@ double noise(int column, int row) {
 
 /// Maps that go wrong easily: even, one bright texel, black rows and columns, wide range, odd sizes.
 std::vector<EnvironmentMap> maps() {
-  return {grey_map(1, 1, [](int, int) { return 2.0; }),
-          grey_map(2, 1, [](int x, int) { return x == 0 ? 1.0 : 0.25; }),
-          grey_map(8, 4, noise, 0.1),
-          grey_map(5, 3, noise, -0.3),
-          grey_map(16, 8, [](int x, int y) { return y == 0 || y > 5 || x < 3 ? 0.0 : noise(x, y); }),
-          grey_map(64, 32, [](int x, int y) { return x == 20 && y == 9 ? 1e10 : 0.0; }, 0.4),
-          grey_map(64, 32, [](int x, int y) { return x == 20 && y == 0 ? 1e4 : 1.0; }),
-          grey_map(32, 16, [](int x, int y) { return std::pow(10, 8 * noise(x, y) - 4); })};
+  return {
+      grey_map(1, 1, [](int, int) { return 2.0; }),
+      grey_map(2, 1, [](int x, int) { return x == 0 ? 1.0 : 0.25; }),
+      grey_map(8, 4, noise, 0.1),
+      grey_map(5, 3, noise, -0.3),
+      grey_map(16, 8, [](int x, int y) { return y == 0 || y > 5 || x < 3 ? 0.0 : noise(x, y); }),
+      grey_map(
+          64, 32, [](int x, int y) { return x == 20 && y == 9 ? 1e10 : 0.0; }, 0.4),
+      grey_map(64, 32, [](int x, int y) { return x == 20 && y == 0 ? 1e4 : 1.0; }),
+      grey_map(32, 16, [](int x, int y) { return std::pow(10, 8 * noise(x, y) - 4); })};
 }
 
 /// Integral of the density over a rectangle of cosines to +y and longitudes (turns from the map's left
@@ -98,7 +100,8 @@ TEST_CASE("environment map: directions follow the density, which integrates to 1
   }
 }
 
-TEST_CASE("environment map: samples agree with lookups of their direction, also at seam and poles") {
+TEST_CASE(
+    "environment map: samples agree with lookups of their direction, also at seam and poles") {
   for (EnvironmentMap &map : maps()) {
     const Scene scene = rich_scene({environment_light()}, map);
     const SceneView view = scene.view();
@@ -121,7 +124,8 @@ TEST_CASE("environment map: samples agree with lookups of their direction, also 
   }
   const Scene scene = rich_scene({environment_light()}, maps()[2]);
   const SceneView view = scene.view();
-  for (const Vec3 w : {vec3(0, 1, 0), vec3(0, -1, 0), vec3(0, 0, 1), vec3(-0.0f, 0, 1), vec3(1e-30f, 1, 0)}) {
+  for (const Vec3 w :
+       {vec3(0, 1, 0), vec3(0, -1, 0), vec3(0, 0, 1), vec3(-0.0f, 0, 1), vec3(1e-30f, 1, 0)}) {
     const Vec2 uv = environment_uv(w);
     CHECK((uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1));
     CHECK(is_finite(environment_pdf(view, uv)));
@@ -162,7 +166,8 @@ TEST_CASE("environment map: sampled, met and both with weights give the same int
         const double cosine = d(dot(w, n));
         if (cosine <= 0) continue;
         const Vec2 uv = environment_uv(to_local(environment_frame(view), w));
-        expected += d(environment_radiance(view, uv).x) * cosine * std::sin(theta) * (kPi / kRows) * (kPi / kRows);
+        expected += d(environment_radiance(view, uv).x) * cosine * std::sin(theta) * (kPi / kRows) *
+                    (kPi / kRows);
       }
     Mean sampled, both;
     Random random(8);
@@ -193,26 +198,29 @@ TEST_CASE("environment map: one texel is a constant environment") {
   const SceneView view = scene.view();
   Random random(9);
   for (int i = 0; i < 1000; ++i) {
-    const LightSample s = sample_light_rich(view, random.point(1e6f), random.square(), random.square());
+    const LightSample s =
+        sample_light_rich(view, random.point(1e6f), random.square(), random.square());
     REQUIRE(s.radiance.x == doctest::Approx(2));
     REQUIRE(d(s.pdf) == doctest::Approx(1 / (4 * kPi)));
     REQUIRE(s.is_delta == 0);
     REQUIRE(s.distance == PHALANX_FAR);
-    REQUIRE(infinite_radiance(view, random.point(1), random.direction(), 0).x == doctest::Approx(2));
+    REQUIRE(infinite_radiance(view, random.point(1), random.direction(), 0).x ==
+            doctest::Approx(2));
   }
 }
 
 TEST_CASE("environment map: up is the first row, the middle column at -z, columns run towards +x") {
   const auto look = [](Vec3 w, double turns) {
-    const EnvironmentMap map = grey_map(4, 3, [](int x, int y) { return 10 * y + x; }, turns);
+    const EnvironmentMap map = grey_map(
+        4, 3, [](int x, int y) { return 10 * y + x; }, turns);
     const Scene scene = rich_scene({environment_light()}, map);
     return infinite_radiance(scene.view(), vec3(0, 0, 0), w, 0).x;
   };
-  CHECK(look({0, 1, 0}, 0) < 5);    // row 0
-  CHECK(look({0, -1, 0}, 0) > 18);  // row 2
-  CHECK(look({0, 0, -1}, 0) == doctest::Approx(11.5));   // between columns 1 and 2
-  CHECK(look({1, 0, 0}, 0) == doctest::Approx(12.5));    // between 2 and 3
-  CHECK(look({-1, 0, 0}, 0) == doctest::Approx(10.5));   // between 0 and 1
+  CHECK(look({0, 1, 0}, 0) < 5);                        // row 0
+  CHECK(look({0, -1, 0}, 0) > 18);                      // row 2
+  CHECK(look({0, 0, -1}, 0) == doctest::Approx(11.5));  // between columns 1 and 2
+  CHECK(look({1, 0, 0}, 0) == doctest::Approx(12.5));   // between 2 and 3
+  CHECK(look({-1, 0, 0}, 0) == doctest::Approx(10.5));  // between 0 and 1
   // A quarter counter-clockwise from above: what was at -z is at -x.
   CHECK(look({-1, 0, 0}, 0.25) == doctest::Approx(11.5));
   CHECK(look({0, 0, -1}, 0.25) == doctest::Approx(12.5));

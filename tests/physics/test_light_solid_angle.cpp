@@ -74,7 +74,7 @@ const Light kRectangle =
 const Light kTriangle =
     planar_light(kTriangleLight, {-0.5f, -0.2f, 1}, {2, 0.1f, 0.2f}, {0.2f, 1.5f, -0.1f});
 // In front, aside, close to the surface, close to an edge and beyond it, from behind, far.
-const Vec3 kViews[] = {{0.3f, 0.2f, -0.5f}, {2, -1, 0.5f},      {0.0f, 0.4f, 0.99f},
+const Vec3 kViews[] = {{0.3f, 0.2f, -0.5f},   {2, -1, 0.5f},      {0.0f, 0.4f, 0.99f},
                        {-0.6f, -0.2f, 0.98f}, {0.4f, 0.6f, 1.3f}, {5, 3, -80}};
 
 /// Points counted in the parameters of the surface.
@@ -126,9 +126,9 @@ TEST_CASE("solid angle: rectangles and triangles fill what they fill in double")
     const Vec3 a = random.direction() * random.between(0.1f, 3);
     const Vec3 side = normalize(cross(a, random.direction()));
     for (const bool quad : {true, false}) {
-      const Light light = by_solid_angle(
-          planar_light(quad ? kQuadLight : kTriangleLight, random.point(2), a,
-                       quad ? side * random.between(0.1f, 3) : random.direction()));
+      const Light light =
+          by_solid_angle(planar_light(quad ? kQuadLight : kTriangleLight, random.point(2), a,
+                                      quad ? side * random.between(0.1f, 3) : random.direction()));
       const Vec3 origin = random.point(4);
       const float got = sampled_solid_angle(light, origin);
       if (got == 0) continue;
@@ -166,9 +166,9 @@ TEST_CASE("solid angle: irradiance is Lambert's, near, far, grazing, at any scal
     const char *name;
     double size, height, aside;  // of the light; of the receiver below it; sideways
   };
-  const Case cases[] = {{"unit", 1, 1, 0},        {"near", 1, 1e-2, 0},     {"touching", 1, 1e-4, 0.1},
-                        {"huge", 1e4, 1, 0},      {"grazing", 1, 1e-2, 2},  {"edge", 1, 1e-3, 0.5},
-                        {"tiny", 1e-4, 1, 0.3},   {"far", 1, 1000, 10}};
+  const Case cases[] = {{"unit", 1, 1, 0},      {"near", 1, 1e-2, 0},    {"touching", 1, 1e-4, 0.1},
+                        {"huge", 1e4, 1, 0},    {"grazing", 1, 1e-2, 2}, {"edge", 1, 1e-3, 0.5},
+                        {"tiny", 1e-4, 1, 0.3}, {"far", 1, 1000, 10}};
   for (const Case &c : cases)
     for (const double scale : {1e-12, 1.0, 1e9})
       for (const LightKind kind : {kQuadLight, kTriangleLight}) {
@@ -181,7 +181,8 @@ TEST_CASE("solid angle: irradiance is Lambert's, near, far, grazing, at any scal
         Random random(3);
         Mean mean;
         for (int i = 0; i < 100000; ++i) {
-          const LightSample sample = sample_light_rich(view, origin, random.square(), random.square());
+          const LightSample sample =
+              sample_light_rich(view, origin, random.square(), random.square());
           mean.add(sample.pdf > 0 ? d(sample.radiance.x) * d(std::max(sample.direction.z, 0.0f)) /
                                         d(sample.pdf)
                                   : 0);
@@ -198,7 +199,8 @@ TEST_CASE("solid angle: irradiance is Lambert's, near, far, grazing, at any scal
       }
 }
 
-TEST_CASE("solid angle: with multiple importance sampling the two ways add up to Lambert's formula") {
+TEST_CASE(
+    "solid angle: with multiple importance sampling the two ways add up to Lambert's formula") {
   for (const Light &plain : {kRectangle, kTriangle})
     for (const Vec3 origin : {vec3(0.3f, 0.2f, -0.5f), vec3(0.0f, 0.4f, 0.9f)}) {
       const Light light = by_solid_angle(plain);
@@ -211,17 +213,19 @@ TEST_CASE("solid angle: with multiple importance sampling the two ways add up to
         double sum = 0;
         const LightSample s = sample_light_rich(view, origin, random.square(), random.square());
         if (s.pdf > 0 && s.direction.z > 0)
-          sum += d(s.direction.z) / d(s.pdf) * d(power_heuristic(s.pdf, s.direction.z * PHALANX_INV_PI));
+          sum += d(s.direction.z) / d(s.pdf) *
+                 d(power_heuristic(s.pdf, s.direction.z * PHALANX_INV_PI));
         const Vec3 w = square_to_cosine_hemisphere(random.square());
         const float t = dot(light.p - origin, light.normal) / dot(w, light.normal);
         const Vec3 p = origin + w * t, r = p - light.p, across = cross(light.a, light.b);
         const float u = dot(cross(r, light.b), across) / dot(across, across);
         const float v = dot(cross(light.a, r), across) / dot(across, across);
-        const bool inside = u >= 0 && v >= 0 && (light.kind == kQuadLight ? u <= 1 && v <= 1 : u + v <= 1);
+        const bool inside =
+            u >= 0 && v >= 0 && (light.kind == kQuadLight ? u <= 1 && v <= 1 : u + v <= 1);
         const float pdf_bsdf = w.z * PHALANX_INV_PI;
         if (t > 0 && inside && pdf_bsdf > 0)
           sum += kPi * d(power_heuristic(pdf_bsdf, light_pdf_rich(view, view.lights[0], origin, p,
-                                                                   light.normal)));
+                                                                  light.normal)));
         mean.add(sum);
       }
       // Facing away, the light would be black: both are seen from below, and shine on both sides here.
@@ -237,14 +241,19 @@ TEST_CASE("solid angle: in the plane, at corners, inside the light nothing is Na
     const Light light = by_solid_angle(plain);
     const Scene scene = rich_scene({light});
     const SceneView view = scene.view();
-    std::vector<Vec3> origins = {light.p, light.p + light.a, light.p + light.b, light.p + light.a * 0.5f,
-                                 light.p + light.a * 0.3f + light.b * 0.3f, light.p - light.a,
+    std::vector<Vec3> origins = {light.p,
+                                 light.p + light.a,
+                                 light.p + light.b,
+                                 light.p + light.a * 0.5f,
+                                 light.p + light.a * 0.3f + light.b * 0.3f,
+                                 light.p - light.a,
                                  light.p + light.a * 1e6f};
     for (const float h : {1e-3f, 1e-6f, 1e-12f, 1e-25f, 1e-38f})
       origins.push_back(light.p + light.a * 0.25f + light.b * 0.25f - light.normal * h);
     for (const Vec3 origin : origins)
       for (int i = 0; i < 2000; ++i) {
-        const Vec2 u = i < 4 ? vec2(i & 1 ? 1 - 0x1p-24f : 0, i & 2 ? 1 - 0x1p-24f : 0) : random.square();
+        const Vec2 u =
+            i < 4 ? vec2(i & 1 ? 1 - 0x1p-24f : 0, i & 2 ? 1 - 0x1p-24f : 0) : random.square();
         const LightSample s = sample_light_rich(view, origin, random.square(), u);
         REQUIRE(is_finite(s.pdf));
         REQUIRE(s.pdf >= 0.0f);

@@ -74,7 +74,8 @@ TEST_CASE("profile: the table is read where the file says it, on every axis") {
   Scene scene;
   scene.tables.assign(7, -1.0f);
   scene.tables.insert(scene.tables.end(), table.values.begin(), table.values.end());
-  LightProfile lamp = {7, table.num_vertical, table.num_horizontal, {1, 0, 0}, {0, 0, -1}, {0, -1, 0}};
+  LightProfile lamp = {7,         table.num_vertical, table.num_horizontal,
+                       {1, 0, 0}, {0, 0, -1},         {0, -1, 0}};
   scene.profiles = {lamp};
   SceneView view = scene.view();
   view.tables = scene.tables.data();
@@ -116,7 +117,8 @@ TEST_CASE("directional light: the same from everywhere, met by no ray") {
   CHECK(is_black(infinite_radiance(view, vec3(0, 0, 0), n, 0.5f)));
 }
 
-TEST_CASE("sun: directions are uniform in the disc and the density is 1 over its solid angle (L3)") {
+TEST_CASE(
+    "sun: directions are uniform in the disc and the density is 1 over its solid angle (L3)") {
   for (const double degrees : {0.001, 0.01, 0.533, 10.0, 90.0, 180.0}) {
     const Vec3 n = normalize(vec3(1, 2, -3));
     const float h = one_minus_cos(degrees);
@@ -126,7 +128,8 @@ TEST_CASE("sun: directions are uniform in the disc and the density is 1 over its
     Histogram grid({10, 20, 0, 1, 0, 2 * kPi});
     Random random(3);
     for (int i = 0; i < num_samples() / 4; ++i) {
-      const LightSample s = sample_light_rich(view, vec3(0, 0, 0), random.square(), random.square());
+      const LightSample s =
+          sample_light_rich(view, vec3(0, 0, 0), random.square(), random.square());
       const Vec3 chord = s.direction - n;  // 1 - cos from the chord, relative to that of the edge
       const double x = 0.5 * d(dot(chord, chord)) / d(h);
       grid.add(x, azimuth(d(dot(chord, frame.s)), d(dot(chord, frame.t))));
@@ -159,10 +162,13 @@ TEST_CASE("sun: it is met where it is sampled, and both ways add up (L11)") {
     Mean both;
     for (int i = 0; i < 400000; ++i) {
       const LightSample s = sample_light_rich(view, vec3(1, 2, 3), kMiddle, random.square());
-      double sum = d(s.direction.y) / d(s.pdf) * d(power_heuristic(s.pdf, s.direction.y * PHALANX_INV_PI));
+      double sum =
+          d(s.direction.y) / d(s.pdf) * d(power_heuristic(s.pdf, s.direction.y * PHALANX_INV_PI));
       const Vec3 w = square_to_cosine_hemisphere(random.square());
       if (w.z > 0)
-        sum += kPi * d(infinite_radiance(view, vec3(0, 0, 0), vec3(w.x, w.z, w.y), w.z * PHALANX_INV_PI).x);
+        sum +=
+            kPi *
+            d(infinite_radiance(view, vec3(0, 0, 0), vec3(w.x, w.z, w.y), w.z * PHALANX_INV_PI).x);
       both.add(sum);
     }
     CAPTURE(degrees);
@@ -200,10 +206,12 @@ TEST_CASE("rich lights: plain area lights are sampled as in light.h, bit for bit
 }
 
 TEST_CASE("rich lights: a list of all kinds gives each its share, by a table and by a tree") {
-  std::vector<Light> lights = {
-      planar_light(kQuadLight, {-1, -1, 2}, {0, 2, 0}, {2, 0, 0}), sphere_light({3, 0, 1}, 0.5f),
-      point_light({0, 1, 1}, 2), directional_light({0, 0, 1}, 0, 1),
-      directional_light(normalize(vec3(1, 0, 1)), 0.1f, 1), environment_light()};
+  std::vector<Light> lights = {planar_light(kQuadLight, {-1, -1, 2}, {0, 2, 0}, {2, 0, 0}),
+                               sphere_light({3, 0, 1}, 0.5f),
+                               point_light({0, 1, 1}, 2),
+                               directional_light({0, 0, 1}, 0, 1),
+                               directional_light(normalize(vec3(1, 0, 1)), 0.1f, 1),
+                               environment_light()};
   EnvironmentMap map;
   map.width = map.height = 1;
   map.texels = {1, 1, 1};
@@ -221,7 +229,8 @@ TEST_CASE("rich lights: a list of all kinds gives each its share, by a table and
       Mean mean;
       for (int i = 0; i < 400000; ++i) {
         const LightSample s = sample_light_rich(one, origin, random.square(), random.square());
-        mean.add(s.pdf > 0 && s.direction.z > 0 ? d(s.radiance.x) * d(s.direction.z) / d(s.pdf) : 0);
+        mean.add(s.pdf > 0 && s.direction.z > 0 ? d(s.radiance.x) * d(s.direction.z) / d(s.pdf)
+                                                : 0);
       }
       expected += mean.mean();
     }

@@ -55,7 +55,8 @@ bool shines(const SceneView &view, const Light &light, Vec3 p, Random &random) {
 TEST_CASE("light tree: every light is at the end of its path, once") {
   for (const int count : {1, 2, 3, 64, 1000, 20000}) {
     std::vector<Light> lights = many_lights(count, 1, 3);
-    const std::vector<LightNode> nodes = build_light_tree(lights, std::vector<double>(lights.size(), 2.0));
+    const std::vector<LightNode> nodes =
+        build_light_tree(lights, std::vector<double>(lights.size(), 2.0));
     REQUIRE(nodes.size() == 2 * lights.size() - 1);
     for (std::size_t i = 0; i < lights.size(); ++i) {
       int32 first = nodes[0].first;
@@ -70,11 +71,14 @@ TEST_CASE("light tree: every light is at the end of its path, once") {
   }
 }
 
-TEST_CASE("light tree: lights in one place, in a row, in ever finer clusters keep within 31 levels") {
+TEST_CASE(
+    "light tree: lights in one place, in a row, in ever finer clusters keep within 31 levels") {
   for (const int shape : {0, 1, 2}) {
     std::vector<Light> lights;
     for (int i = 0; i < 3000; ++i) {
-      const float x = shape == 0 ? 0.0f : shape == 1 ? static_cast<float>(i) : std::ldexp(1.0f, -(i % 120));
+      const float x = shape == 0   ? 0.0f
+                      : shape == 1 ? static_cast<float>(i)
+                                   : std::ldexp(1.0f, -(i % 120));
       lights.push_back(point_light({x, 0, 0}, 1));
     }
     std::vector<double> powers;
@@ -88,7 +92,8 @@ TEST_CASE("light tree: lights in one place, in a row, in ever finer clusters kee
   }
 }
 
-TEST_CASE("light tree: at any point the probabilities sum to 1, and none is 0 where light arrives") {
+TEST_CASE(
+    "light tree: at any point the probabilities sum to 1, and none is 0 where light arrives") {
   const FlushDenormals flush;
   for (const float size : {1e-12f, 1.0f, 1e12f})
     for (const int count : {2, 5, 100, 1000}) {
@@ -141,7 +146,8 @@ TEST_CASE("light tree: rare lights are found by the bits of the second number") 
   std::vector<int> counts(lights.size());
   Random random(8);
   for (int i = 0; i < 2000000; ++i)
-    ++counts[static_cast<std::size_t>(choose_light_rich(view, vec3(5, 0, 0), random.square()).light)];
+    ++counts[static_cast<std::size_t>(
+        choose_light_rich(view, vec3(5, 0, 0), random.square()).light)];
   Histogram groups({500, 1, 0, 500, 0, 1});
   for (std::size_t i = 0; i < counts.size(); ++i)
     for (int k = 0; k < counts[i]; ++k) groups.add(static_cast<double>(i % 500) + 0.5, 0.5);

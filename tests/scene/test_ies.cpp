@@ -15,8 +15,9 @@ namespace {
 const std::string kHeader = "IESNA:LM-63-2002\r\n[TEST] none\r\n[MANUFAC] a, b\r\n";
 
 /// A file of one row of angles each way.
-std::string file(const std::string &vertical, const std::string &horizontal, const std::string &candela,
-                 int num_vertical, int num_horizontal, const std::string &tilt = "TILT=NONE\n") {
+std::string file(const std::string &vertical, const std::string &horizontal,
+                 const std::string &candela, int num_vertical, int num_horizontal,
+                 const std::string &tilt = "TILT=NONE\n") {
   return kHeader + tilt + "1 1000 2 " + std::to_string(num_vertical) + " " +
          std::to_string(num_horizontal) + " 1 2 0.1 0.2 0.3\n1.5 1 100\n" + vertical + "\n" +
          horizontal + "\n" + candela + "\n";
@@ -78,14 +79,17 @@ TEST_CASE("ies: quarters, halves and lateral halves are mirrored; a full circle 
   CHECK(at(full, 405) == doctest::Approx(1.5));
 }
 
-TEST_CASE("ies: older headers, any line breaks, commas, tilts and what follows the numbers are taken") {
+TEST_CASE(
+    "ies: older headers, any line breaks, commas, tilts and what follows the numbers are taken") {
   CHECK(error_of(replaced(kGood, "IESNA:LM-63-2002\r\n", "")) == "no error");
   CHECK(error_of(replaced(kGood, "TILT=NONE", "tilt=none")) == "no error");
   CHECK(error_of(kGood + "\x1a\n") == "no error");
   std::string broken = kGood;
-  std::replace(broken.begin() + static_cast<std::ptrdiff_t>(broken.find("1 1000")), broken.end(), ' ', '\n');
+  std::replace(broken.begin() + static_cast<std::ptrdiff_t>(broken.find("1 1000")), broken.end(),
+               ' ', '\n');
   CHECK(parse_ies(broken, "").candela == parse_ies(kGood, "").candela);
-  std::replace(broken.begin() + static_cast<std::ptrdiff_t>(broken.find("1\n1000")), broken.end(), '\n', ',');
+  std::replace(broken.begin() + static_cast<std::ptrdiff_t>(broken.find("1\n1000")), broken.end(),
+               '\n', ',');
   CHECK(parse_ies(broken, "").candela == parse_ies(kGood, "").candela);
   const IesProfile tilted =
       parse_ies(file("0 90", "0", "1 1", 2, 1, "TILT=INCLUDE\n1\n2\n0 90\n1 0.9\n"), "lamp.ies");
@@ -98,8 +102,10 @@ TEST_CASE("ies: every bad file gets one message with line and cause") {
   check_error("", "lamp.ies: this is no IES photometric file");
   check_error("{\"version\": 1}", "it has no line TILT=");
   check_error(kHeader + "TILT=NONE\n", "lamp.ies:4: the file ends before the number of lamps");
-  check_error(kHeader + "TILT=NONE\n1 1000 x 3", "lamp.ies:5: expected the candela multiplier, found 'x'");
-  check_error(replaced(kGood, " 3 1 1 2", " 3.5 1 1 2"), "lamp.ies:5: expected the number of vertical angles");
+  check_error(kHeader + "TILT=NONE\n1 1000 x 3",
+              "lamp.ies:5: expected the candela multiplier, found 'x'");
+  check_error(replaced(kGood, " 3 1 1 2", " 3.5 1 1 2"),
+              "lamp.ies:5: expected the number of vertical angles");
   check_error(replaced(kGood, " 3 1 1 2", " 1 1 1 2"), "a whole number in [2, ");
   check_error(replaced(kGood, " 3 1 1 2", " 3 0 1 2"), "expected the number of horizontal angles");
   check_error(replaced(kGood, " 3 1 1 2", " -3 1 1 2"), "expected the number of vertical angles");
@@ -113,15 +119,18 @@ TEST_CASE("ies: every bad file gets one message with line and cause") {
   check_error(replaced(kGood, "0 45 90", "0 45 45"), "must ascend");
   check_error(replaced(kGood, "0 45 90", "0 45 190"), "within 0 and 180 degrees");
   check_error(replaced(kGood, "0 45 90", "-1 45 90"), "within 0 and 180 degrees");
-  check_error(replaced(kGood, "100 50 0", "100 50"), "lamp.ies:9: the file ends before candela value 3 of 3");
-  check_error(replaced(kGood, "100 50 0", "100 nan 0"), "expected candela value 2 of 3, found 'nan'");
+  check_error(replaced(kGood, "100 50 0", "100 50"),
+              "lamp.ies:9: the file ends before candela value 3 of 3");
+  check_error(replaced(kGood, "100 50 0", "100 nan 0"),
+              "expected candela value 2 of 3, found 'nan'");
   check_error(replaced(kGood, "100 50 0", "100 1e999 0"), "expected candela value 2 of 3");
   check_error(replaced(kGood, "100 50 0", "100 1e37 0"), "in [0, 1e30]");
   check_error(replaced(kGood, "100 50 0", "100 -1 0"), "in [0, 1e30]");
   check_error(replaced(kGood, "100 50 0", "0 0 0"), "gives no light");
   check_error(file("0 90", "0 45", "1 1 1 1", 2, 2), "horizontal angles must run");
   check_error(file("0 90", "10 360", "1 1 1 1", 2, 2), "horizontal angles must run");
-  check_error(file("0 90", "0", "1 1", 2, 1, "TILT=INCLUDE\n1 -2\n"), "expected the number of tilt angles");
+  check_error(file("0 90", "0", "1 1", 2, 1, "TILT=INCLUDE\n1 -2\n"),
+              "expected the number of tilt angles");
 }
 
 TEST_CASE("ies: a file cut anywhere or changed in any byte does not crash") {
@@ -134,7 +143,8 @@ TEST_CASE("ies: a file cut anywhere or changed in any byte does not crash") {
     changed[(state >> 8) % text.size()] = static_cast<char>(state >> 24);
     try {
       const IesProfile profile = parse_ies(changed, "");
-      for (const double h : {-500.0, 0.0, 77.0, 1e6}) CHECK(std::isfinite(ies_candela(profile, 33, h)));
+      for (const double h : {-500.0, 0.0, 77.0, 1e6})
+        CHECK(std::isfinite(ies_candela(profile, 33, h)));
     } catch (const InputError &) {
     }
   }
@@ -146,9 +156,9 @@ TEST_CASE("ies: the table keeps the peak and the shape") {
   CHECK(table.num_horizontal == 145);
   REQUIRE(table.values.size() == 361 * 145);
   CHECK(table.peak == doctest::Approx(6));
-  CHECK(table.values[0] == 0.5f);             // 0 down, 0 around
-  CHECK(table.values[36] == 1.0f);            // 90 around
-  CHECK(table.values[90 * 145] == 0.25f);     // 45 down
+  CHECK(table.values[0] == 0.5f);          // 0 down, 0 around
+  CHECK(table.values[36] == 1.0f);         // 90 around
+  CHECK(table.values[90 * 145] == 0.25f);  // 45 down
   CHECK(table.values[300 * 145 + 36] == 0.0f);
   for (std::size_t v = 0; v < 361; ++v) CHECK(table.values[v * 145] == table.values[v * 145 + 144]);
   CHECK(make_ies_table(parse_ies(kGood, "")).num_horizontal == 2);

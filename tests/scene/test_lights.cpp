@@ -57,8 +57,8 @@ const std::string kRoom = R"(, "materials": [{"name": "grey", "type": "diffuse"}
 std::string many_points(int count) {
   std::string list;
   for (int i = 0; i < count; ++i)
-    list += (i > 0 ? ", " : "") + std::string(R"({"type": "point", "position": [)") + std::to_string(i) +
-            R"(, 0, 0], "intensity": 1})";
+    list += (i > 0 ? ", " : "") + std::string(R"({"type": "point", "position": [)") +
+            std::to_string(i) + R"(, 0, 0], "intensity": 1})";
   return list;
 }
 
@@ -119,7 +119,8 @@ TEST_CASE("lights: without anything of this, kernels and choices are those of pl
 TEST_CASE("lights: powers of all kinds are in one unit") {
   // All over pi: a point's 4 I, a lamp's L A, a sun's E R^2.
   const Scene scene = lights(R"({"type": "point", "position": [0, 0, 0], "intensity": 3},
-    {"type": "directional", "direction": [0, 0, -1], "irradiance": 0.5})", kRoom);
+    {"type": "directional", "direction": [0, 0, -1], "irradiance": 0.5})",
+                             kRoom);
   REQUIRE(scene.lights.size() == 6);
   const double powers[] = {0.5, 0.5, 2, 2, 12, 0.5 * 0.25 * 201};
   double sum = 0;
@@ -138,8 +139,10 @@ TEST_CASE("lights: solid angles are for triangles and rectangles") {
 TEST_CASE("lights: the tree is taken from 65 lights on, or when asked for") {
   CHECK(lights(many_points(64)).light_nodes.empty());
   CHECK(lights(many_points(65)).light_nodes.size() == 129);
-  CHECK(lights(many_points(65), R"(, "integrator": {"light_choice": "power"})").light_nodes.empty());
-  CHECK(lights(many_points(2), R"(, "integrator": {"light_choice": "tree"})").light_nodes.size() == 3);
+  CHECK(
+      lights(many_points(65), R"(, "integrator": {"light_choice": "power"})").light_nodes.empty());
+  CHECK(lights(many_points(2), R"(, "integrator": {"light_choice": "tree"})").light_nodes.size() ==
+        3);
   CHECK(lights(many_points(1), R"(, "integrator": {"light_choice": "tree"})").light_nodes.empty());
   const Scene scene = lights(many_points(65) + R"(, {"type": "environment", "radiance": 1},
     {"type": "directional", "direction": [0, 1, 0], "irradiance": 1},
@@ -151,7 +154,8 @@ TEST_CASE("lights: the tree is taken from 65 lights on, or when asked for") {
   for (const Light &light : scene.lights)
     sum += static_cast<double>(choice_pdf(view, light, vec3(3, 4, 5)));
   CHECK(sum == doctest::Approx(1));
-  CHECK(scene.lights[66].select_pdf == doctest::Approx(0.75 * static_cast<double>(scene.infinite_share)));
+  CHECK(scene.lights[66].select_pdf ==
+        doctest::Approx(0.75 * static_cast<double>(scene.infinite_share)));
   for (const float u : {0.0f, 0.5f * scene.infinite_share}) {
     const ChosenLight c = choose_light_rich(view, vec3(0, 0, 0), vec2(u, 0.3f));
     CHECK(c.light >= 65);
@@ -169,7 +173,8 @@ TEST_CASE("lights: an environment map from a file, turned and scaled") {
   for (const std::string name : {"sky.exr", "sky.hdr"}) {
     write_image(folder / name, image, 0);
     const Built built = build(R"("lights": [{"type": "environment", "file": ")" + name +
-                                  R"(", "rotate": 90, "scale": [1, 2, 3]}])", folder.path());
+                                  R"(", "rotate": 90, "scale": [1, 2, 3]}])",
+                              folder.path());
     CHECK(built.problems == "");
     const Scene &scene = built.scene;
     CHECK((scene.environment_width == 4 && scene.environment_height == 2));
@@ -191,7 +196,8 @@ TEST_CASE("lights: maps with black, negative or infinite pixels, or no map at al
     for (const char *name : {"R", "G", "B"}) add_channel(image, name)[3] = value;
     write_image(folder / "map.exr", image, 0);
     return build(R"("lights": [{"type": "environment", "file": "map.exr"},
-      {"type": "point", "position": [0, 0, 0], "intensity": 1}])", folder.path());
+      {"type": "point", "position": [0, 0, 0], "intensity": 1}])",
+                 folder.path());
   };
   const Built black = with(0);
   CHECK(black.problems == "");
@@ -215,7 +221,8 @@ TEST_CASE("lights: an IES file gives a profile, and the intensity unless the sce
   const Built built = build(R"("lights": [
     {"type": "ies", "file": "lamp.ies", "position": [0, 3, 0]},
     {"type": "ies", "file": "lamp.ies", "position": [0, 3, 0], "direction": [1, 0, 0], "horizontal": [1, 1, 0],
-     "intensity": [1, 2, 3]}])", folder.path());
+     "intensity": [1, 2, 3]}])",
+                            folder.path());
   CHECK(built.problems == "");
   const Scene &scene = built.scene;
   REQUIRE(scene.profiles.size() == 2);
@@ -227,18 +234,22 @@ TEST_CASE("lights: an IES file gives a profile, and the intensity unless the sce
   check_near(scene.lights[1].emission, {1, 2, 3});
   const SceneView view = scene.view();
   CHECK(profile_intensity(view, 0, vec3(0, -1, 0)) == doctest::Approx(1));
-  CHECK(profile_intensity(view, 0, vec3(0.70710678f, -0.70710678f, 0)) == doctest::Approx(0).epsilon(1e-4));
+  CHECK(profile_intensity(view, 0, vec3(0.70710678f, -0.70710678f, 0)) ==
+        doctest::Approx(0).epsilon(1e-4));
   CHECK(profile_intensity(view, 1, vec3(1, 0, 0)) == doctest::Approx(1));
   put(folder / "tilted.ies", "TILT=x.tlt" + kIes.substr(9));
-  CHECK(build(R"("lights": [{"type": "ies", "file": "tilted.ies", "position": [0, 0, 0]}])", folder.path())
+  CHECK(build(R"("lights": [{"type": "ies", "file": "tilted.ies", "position": [0, 0, 0]}])",
+              folder.path())
             .problems.find("asks for a tilt") != std::string::npos);
   put(folder / "bad.ies", "lamp");
-  CHECK(build(R"("lights": [{"type": "ies", "file": "bad.ies", "position": [0, 0, 0]}])", folder.path())
+  CHECK(build(R"("lights": [{"type": "ies", "file": "bad.ies", "position": [0, 0, 0]}])",
+              folder.path())
             .problems.find("/lights/0: ") != std::string::npos);
 }
 
 TEST_CASE("lights: the sky is a map with the sun in it") {
-  const Scene scene = lights(R"({"type": "sky", "sun_elevation": 30, "sun_azimuth": 120, "turbidity": 2})");
+  const Scene scene =
+      lights(R"({"type": "sky", "sun_elevation": 30, "sun_azimuth": 120, "turbidity": 2})");
   REQUIRE(scene.lights.size() == 2);
   CHECK(scene.lights[0].kind == kDirectionalLight);
   CHECK(scene.lights[0].one_minus_cos > 0);
@@ -254,17 +265,20 @@ TEST_CASE("lights: the sky is a map with the sun in it") {
   Vec3 where = {0, 0, 0};
   for (int i = 0; i < 180; ++i)
     for (int j = 0; j < 90; ++j) {
-      const float phi = static_cast<float>(2 * i * kPi / 180), theta = static_cast<float>(j * kPi / 180);
-      const Vec3 w = vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+      const float phi = static_cast<float>(2 * i * kPi / 180),
+                  theta = static_cast<float>(j * kPi / 180);
+      const Vec3 w =
+          vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
       if (map_at(w) > brightest) brightest = map_at(w), where = w;
     }
   CHECK(dot(where, sun) > 0.995f);
   CHECK(lights(R"({"type": "sky", "sun": false})").lights.size() == 1);
   CHECK(lights(R"({"type": "sky", "sun_elevation": -5})").lights.size() == 1);  // after sunset
-  CHECK(lights(R"({"type": "sky", "sun_elevation": -60})").lights.empty());    // night
+  CHECK(lights(R"({"type": "sky", "sun_elevation": -60})").lights.empty());     // night
 }
 
-TEST_CASE("lights: textures of emission and opacity count in the power, at the same points as at a hit") {
+TEST_CASE(
+    "lights: textures of emission and opacity count in the power, at the same points as at a hit") {
   const std::string scene_text = R"("textures": [{"name": "t", "type": "checker", "a": 1, "b": 3,
       "transform": {"scale": 4}}],
     "materials": [{"name": "plain", "type": "black", "emission": 2},
@@ -307,7 +321,8 @@ TEST_CASE("lights: a sampled point and a hit at that point read textures at the 
   for (int32 g = 0; g < view.num_geometries; ++g) {
     const Light &light = view.lights[view.geometries[g].first_light];
     for (int i = 0; i < 100; ++i) {
-      const Vec2 u = {0.005f + 0.0099f * static_cast<float>(i), 0.005f + 0.0099f * static_cast<float>(i * 37 % 100)};
+      const Vec2 u = {0.005f + 0.0099f * static_cast<float>(i),
+                      0.005f + 0.0099f * static_cast<float>(i * 37 % 100)};
       const Vec3 origin = {7, -3, 9};
       const LightPoint point = sample_surface_light(light, origin, u);
       const TexturePoint sampled = light_texture_point(light, point);
@@ -318,7 +333,8 @@ TEST_CASE("lights: a sampled point and a hit at that point read textures at the 
       CAPTURE(g);
       CAPTURE(i);
       REQUIRE(length(s.at.position - sampled.position) < 1e-4f);
-      if (light.kind == kDiskLight && sampled.uv.x < 0.1f) continue;  // the angle has no digits there
+      if (light.kind == kDiskLight && sampled.uv.x < 0.1f)
+        continue;  // the angle has no digits there
       REQUIRE(std::fabs(std::remainder(s.at.uv.x - sampled.uv.x, 1.0f)) < 1e-4f);
       REQUIRE(std::fabs(std::remainder(s.at.uv.y - sampled.uv.y, 1.0f)) < 1e-4f);
       REQUIRE(length(s.at.colour - sampled.colour) < 1e-4f);

@@ -26,7 +26,9 @@ Double3 texel(const EnvironmentMap &map, int column, int row) {
 }
 
 /// cd m^-2.
-double photometric(const Double3 &c) { return 683 * (0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]); }
+double photometric(const Double3 &c) {
+  return 683 * (0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]);
+}
 
 /// Of the upper half, lx on level ground.
 double illuminance(const EnvironmentMap &map) {
@@ -34,8 +36,8 @@ double illuminance(const EnvironmentMap &map) {
   for (int row = 0; row < map.height / 2; ++row)
     for (int column = 0; column < map.width; ++column) {
       const double theta = kPi * (row + 0.5) / map.height;
-      sum += photometric(texel(map, column, row)) * std::cos(theta) * std::sin(theta) * kPi / map.height *
-             2 * kPi / map.width;
+      sum += photometric(texel(map, column, row)) * std::cos(theta) * std::sin(theta) * kPi /
+             map.height * 2 * kPi / map.width;
     }
   return sum;
 }
@@ -48,7 +50,8 @@ TEST_CASE("sky: every texel is finite and not negative, by day, at dusk and at n
       const Sky sky = make_sky(at_elevation(elevation, turbidity));
       CAPTURE(elevation);
       CAPTURE(turbidity);
-      REQUIRE(sky.map.texels.size() == static_cast<std::size_t>(sky.map.width * sky.map.height * 3));
+      REQUIRE(sky.map.texels.size() ==
+              static_cast<std::size_t>(sky.map.width * sky.map.height * 3));
       CHECK(std::all_of(sky.map.texels.begin(), sky.map.texels.end(),
                         [](float x) { return x >= 0 && std::isfinite(x); }));
       for (const double c : sky.sun) CHECK((c >= 0 && std::isfinite(c)));
@@ -70,7 +73,8 @@ TEST_CASE("sky: brightness is that of clear skies") {
   CHECK(disc < 2e9);
   // The ground is its albedo of what falls on it.
   const double ground = photometric(texel(sky.map, 0, sky.map.height - 1));
-  CHECK(ground == doctest::Approx(0.3 / kPi * (direct * std::sin(kPi / 4) + diffuse)).epsilon(0.01));
+  CHECK(ground ==
+        doctest::Approx(0.3 / kPi * (direct * std::sin(kPi / 4) + diffuse)).epsilon(0.01));
   // Civil twilight ends at some 3 to 7 lx.
   const double dusk = illuminance(make_sky(at_elevation(-6)).map);
   CHECK((dusk > 1 && dusk < 15));

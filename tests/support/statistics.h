@@ -15,7 +15,7 @@
 namespace phalanx::test {
 
 inline constexpr double kPi = 3.14159265358979323846;
-inline constexpr int kSuiteTests = 1000;  // at least as many as tests/physics makes
+inline constexpr int kSuiteTests = 4000;  // at least as many as tests/physics makes
 
 /// Level of one test such that `tests` independent ones reject at `level` together.
 double sidak(double level, int tests);
