@@ -38,7 +38,7 @@ static inline void megakernel(const uniform SceneView &scene, const uniform Fram
           if (!is_black(v.shadow.contribution)) {
             counts[3] += popcnt(lanemask());
             if (!trace_occluded(scene, v.shadow.origin, v.shadow.direction, v.shadow.distance,
-                                time, camera))
+                                time))
               radiance = radiance + v.shadow.contribution;
           }
           p = v.next;

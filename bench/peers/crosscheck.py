@@ -2,8 +2,9 @@
 """Render scenes with Phalanx and with Mitsuba 3 and test whether the pictures agree.
 
 Each side renders RUNS pictures with seeds of their own. A scene agrees if the means of the whole
-pictures differ by less than 0.3 % in every channel, with a standard error below 0.1 %, and the
-p-values of the tiles are uniform (Kolmogorov-Smirnov, p above 0.01). Exit code 1 if one does not.
+pictures differ by less than 0.3 % in every channel, with a standard error below 0.1 %, the p-values
+of the tiles are not smaller than uniform ones (Kolmogorov-Smirnov, p above 0.01), and no more of them
+are below 0.01 than chance allows (binomial, p above 0.002). Exit code 1 if a scene does not.
 For each scene FOLDER gets a PNG: Phalanx, Mitsuba, their difference in standard errors.
 """
 import argparse
@@ -18,8 +19,9 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 MEAN_TOLERANCE = 0.003
 MEAN_ERROR_LIMIT = 0.001
 UNIFORMITY_LIMIT = 0.01
-HEADER = (f"{'scene':24} {'mean ratio':>10} {'+-':>8} {'KS p':>7} {'p<.01':>6} {'tiles':>6} "
-          f"{'ours s':>7} {'peer s':>7}  verdict")
+OUTLIERS_LIMIT = 0.002
+HEADER = (f"{'scene':24} {'mean ratio':>10} {'+-':>8} {'KS p':>7} {'p<.01':>6} {'few p':>7} "
+          f"{'tiles':>6} {'ours s':>7} {'peer s':>7}  verdict")
 
 
 def verdict(c):
@@ -29,6 +31,8 @@ def verdict(c):
         wrong.append("mean")
     if c.uniformity_p <= UNIFORMITY_LIMIT:
         wrong.append("tiles")
+    if c.outliers_p <= OUTLIERS_LIMIT:
+        wrong.append("some tiles")
     if c.num_quiet_unequal > 0:
         wrong.append("plain tiles")
     if wrong:
@@ -44,7 +48,7 @@ def row(result):
     c = result["comparison"]
     worst = np.argmax(np.abs(c.ratio - 1))
     return (f"{result['name']:24} {c.ratio[worst]:10.5f} {c.ratio_error[worst]:8.5f} "
-            f"{c.uniformity_p:7.4f} {c.below_001:6.3f} {num_tiles(c):6d} "
+            f"{c.uniformity_p:7.4f} {c.below_001:6.3f} {c.outliers_p:7.4f} {num_tiles(c):6d} "
             f"{result['phalanx_s']:7.1f} {result['mitsuba_s']:7.1f}  {result['verdict']}")
 
 
@@ -90,6 +94,7 @@ def as_json(result):
     return {k: v for k, v in result.items() if k != "comparison"} | {
         "mean_ratio": c.ratio.tolist(), "mean_ratio_error": c.ratio_error.tolist(),
         "uniformity_p": c.uniformity_p, "share_below_0.01": c.below_001,
+        "outliers_p": c.outliers_p,
         "num_tiles": num_tiles(c), "num_quiet": c.num_quiet,
         "num_quiet_unequal": c.num_quiet_unequal}
 

@@ -32,8 +32,7 @@ struct Kernels {
                  int32 *counts);
   ShadeKernel *shade[kNumBasicKinds];  // kPlain
   FrameKernel *shade_escaped;
-  void (*shadow)(const SceneView &, const TileView &, const WaveView &, const int32 *slots,
-                 int32 count, int32 coherent);
+  SlotsKernel *shadow;
   int32 (*compact)(const WaveView &);
   // kRich: with everything that a scene can have.
   FrameKernel *resolve;

@@ -75,7 +75,7 @@ void render_wavefront(const Kernels &k, const Plan &plan, const SceneView &scene
     clock.lap(kStageEscaped, num_escaped);
 
     // Shadow: add the light samples that nothing is in the way of.
-    k.shadow(scene, tile, wave, wave.shadow_list, num_shadow, 0);
+    k.shadow(scene, tile, wave, wave.shadow_list, num_shadow);
     rays.shadow += num_shadow;
     clock.lap(kStageShadow, num_shadow);
   }
