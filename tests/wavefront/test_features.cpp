@@ -190,6 +190,21 @@ TEST_CASE("features: bumps of a texture in space turn with their instance") {
   CHECK(difference(smooth, turned) > 0.05);
 }
 
+TEST_CASE("features: light that crosses a long thin strand is not lost") {
+  // White hair under an even sky is not seen.
+  const Json scene = Json::parse(R"({
+    "version": 1,
+    "camera": {"type": "orthographic", "height": 0.1, "position": [0, 0, 3], "look_at": [0, 0, 0]},
+    "film": {"width": 16, "height": 16}, "sampler": {"spp": 64},
+    "integrator": {"max_depth": 500, "roulette_depth": 500},
+    "materials": [{"name": "m", "type": "hair", "absorption": 0}],
+    "lights": [{"type": "environment", "radiance": 1}],
+    "shapes": [{"type": "curves", "material": "m", "radius": 0.06, "strands": [[[0, -60, 0], [0, 60, 0]]]}]})");
+  const RenderResult r =
+      render_scene(build_text(scene.dump(), isas_here().back()), by(Mode::kWavefront));
+  CHECK(std::fabs(mean_of(r.film) - 1) < 0.01);
+}
+
 TEST_CASE("features: a mirrored quad shows its texture mirrored") {
   Json scene = Json::parse(R"({
     "version": 1,
