@@ -191,12 +191,12 @@ TEST_CASE("features: bumps of a texture in space turn with their instance") {
 }
 
 TEST_CASE("features: light that crosses a long thin strand is not lost") {
-  // White hair under an even sky is not seen.
+  // White hair under an even sky is not seen: one event sends light on, and nothing is in its way.
   const Json scene = Json::parse(R"({
     "version": 1,
     "camera": {"type": "orthographic", "height": 0.1, "position": [0, 0, 3], "look_at": [0, 0, 0]},
     "film": {"width": 16, "height": 16}, "sampler": {"spp": 64},
-    "integrator": {"max_depth": 500, "roulette_depth": 500},
+    "integrator": {"max_depth": 1},
     "materials": [{"name": "m", "type": "hair", "absorption": 0}],
     "lights": [{"type": "environment", "radiance": 1}],
     "shapes": [{"type": "curves", "material": "m", "radius": 0.06, "strands": [[[0, -60, 0], [0, 60, 0]]]}]})");
