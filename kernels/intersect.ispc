@@ -4,13 +4,13 @@
 
 export void KERNEL(intersect)(const uniform SceneView &scene, const uniform TileView &tile,
                               const uniform WaveView &wave, const uniform int32 slots[],
-                              uniform int32 count, uniform int32 coherent) {
+                              uniform int32 count, uniform int32 order) {
   foreach (i = 0 ... count) {
     const Gang g = make_gang(slots, i);
     const Hit hit =
         trace_closest(scene, get3(wave.origin_x, wave.origin_y, wave.origin_z, g),
                       get3(wave.direction_x, wave.direction_y, wave.direction_z, g),
-                      get_time(scene, tile, wave, g), coherent != 0);
+                      get_time(scene, tile, wave, g), order);
     put(wave.hit_geometry, g, hit.geometry);
     put(wave.hit_primitive, g, hit.primitive);
     int32 kind = kEscaped;

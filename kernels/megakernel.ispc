@@ -19,8 +19,9 @@ static inline void megakernel(const uniform SceneView &scene, const uniform Fram
         counts[0] += popcnt(lanemask());
         counts[1] += programCount;
         if (!camera) counts[2] += popcnt(lanemask());
+        const uniform int32 order = camera ? kCoherentPackets : frame.bounce_order;
         const Hit hit =
-            resolve_hit<D>(scene, frame, trace_closest(scene, p.origin, p.direction, time, camera),
+            resolve_hit<D>(scene, frame, trace_closest(scene, p.origin, p.direction, time, order),
                            p.origin, p.direction, p.scramble, p.sample, p.depth);
         if (camera && tile.aov != NULL) {
           const FirstHit f = first_hit<D>(scene, hit, p.origin, p.direction);

@@ -55,6 +55,10 @@ enum MaterialKind {
 /// lights, blends; a scene without them runs kernels in which none of that exists.
 enum Detail { kPlain = 0, kRich = 1 };
 
+/// How the rays of a list are traced; what they hit is the same. Packets of coherent rays share a frustum.
+/// Single rays are faster where most of what they meet is not Embree's own (decision 0014).
+enum RayOrder { kIncoherentPackets = 0, kCoherentPackets = 1, kSingleRays = 2 };
+
 /// Constants of a material. A texture index, -1 for none, says where a parameter comes from instead.
 struct Material {
   int32 kind;              // MaterialKind, or kBlend
@@ -325,6 +329,7 @@ struct FrameView {
   int32 integrator;         // IntegratorKind
   float occlusion_distance; // ambient occlusion: how far surfaces are seen, metres
   int32 spp;                // samples per pixel that the sampler may count on
+  int32 bounce_order;       // RayOrder of all closest-hit rays but the camera's
 };
 
 PHALANX_END

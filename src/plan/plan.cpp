@@ -93,6 +93,17 @@ void mark_kinds(Plan &plan, const Scene &scene, std::int32_t material) {
   plan.rich |= m.kind >= kNumBasicKinds || needs_rich_kernels(m);
 }
 
+/// True where more than half of the primitives are ones that Embree asks us about.
+bool is_mostly_user_geometry(const Scene &scene) {
+  std::int64_t ours = 0, all = 0;
+  for (std::size_t g = 0; g < scene.geometries.size(); ++g) {
+    const std::int32_t shape = scene.geometries[g].shape;
+    all += scene.num_prims[g];
+    if (shape == kSpheres || shape == kDisks) ours += scene.num_prims[g];
+  }
+  return 2 * ours > all;
+}
+
 void find_uses(Plan &plan, const Scene &scene) {
   for (const Geometry &g : scene.geometries) {
     mark_kinds(plan, scene, g.material);
@@ -111,6 +122,7 @@ void find_uses(Plan &plan, const Scene &scene) {
   plan.sample_lights = plan.frame.integrator == kAmbientOcclusion ||
                        (paths && !scene.lights.empty() && plan.frame.max_depth > 0 && density);
   plan.instances = !scene.instances.empty();
+  plan.frame.bounce_order = is_mostly_user_geometry(scene) ? kSingleRays : kIncoherentPackets;
   plan.environment = scene.has_environment;
 }
 

@@ -9,6 +9,8 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <tuple>
 
@@ -460,6 +462,26 @@ extern "C" void phalanx_resolve_tie(void *accel, const float ray[7], float t, ui
   ids[0] = static_cast<int32>(tie.ids.geometry);
   ids[1] = static_cast<int32>(tie.ids.primitive);
   ids[2] = static_cast<int32>(tie.ids.instance);
+}
+
+extern "C" void phalanx_intersect_lanes(void *accel, float *rays, std::int64_t lanes,
+                                        int32 width) {
+  // A gang's rays hold each field for all lanes, in the order of RTCRayHit.
+  constexpr int kNumFields = 20, kFar = 8, kFirstOfHit = 12;
+  static_assert(sizeof(RTCRayHit) == kNumFields * sizeof(float));
+  static_assert(offsetof(RTCRayHit, ray.tfar) == kFar * sizeof(float));
+  static_assert(offsetof(RTCRayHit, hit) == kFirstOfHit * sizeof(float));
+  for (int32 lane = 0; lane < width; ++lane) {
+    if (((lanes >> lane) & 1) == 0) continue;
+    alignas(RTCRayHit) float fields[kNumFields];
+    for (int f = 0; f < kNumFields; ++f) fields[f] = rays[f * width + lane];
+    RTCRayHit ray;
+    std::memcpy(&ray, fields, sizeof ray);
+    phalanx_intersect(accel, &ray, false);
+    std::memcpy(fields, &ray, sizeof ray);
+    rays[kFar * width + lane] = fields[kFar];
+    for (int f = kFirstOfHit; f < kNumFields; ++f) rays[f * width + lane] = fields[f];
+  }
 }
 
 Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction, float time) {

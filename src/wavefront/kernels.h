@@ -26,7 +26,7 @@ struct Kernels {
   void (*generate)(const FrameView &, const TileView &, const WaveView &, const int32 *slots,
                    int32 first_index, int32 count);
   void (*intersect)(const SceneView &, const TileView &, const WaveView &, const int32 *slots,
-                    int32 count, int32 coherent);
+                    int32 count, int32 order);
   SlotsKernel *aov;
   void (*bucket)(const WaveView &, int32 num_slots, const int32 *kinds, int32 num_kinds,
                  int32 *counts);

@@ -38,8 +38,8 @@ void render_wavefront(const Kernels &k, const Plan &plan, const SceneView &scene
     clock.lap(kStageGenerate, num_fresh);
 
     // Intersect: camera rays are coherent, the others are not.
-    k.intersect(scene, tile, wave, wave.free, num_fresh, 1);
-    k.intersect(scene, tile, wave, wave.active, num_active, 0);
+    k.intersect(scene, tile, wave, wave.free, num_fresh, kCoherentPackets);
+    k.intersect(scene, tile, wave, wave.active, num_active, frame.bounce_order);
     rays.camera += num_fresh;
     rays.bounce += num_active;
     clock.lap(kStageIntersect, num_fresh + num_active);

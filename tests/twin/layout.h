@@ -64,7 +64,7 @@
   F(Camera, blade_turns) S(Camera) F(FrameView, camera) F(FrameView, width)                       \
   F(FrameView, height) F(FrameView, filter_offsets) F(FrameView, sampler) F(FrameView, seed)      \
   F(FrameView, max_depth) F(FrameView, roulette_depth) F(FrameView, integrator)                   \
-  F(FrameView, occlusion_distance) F(FrameView, spp) S(FrameView) F(WaveView, capacity)           \
+  F(FrameView, occlusion_distance) F(FrameView, spp) F(FrameView, bounce_order) S(FrameView) F(WaveView, capacity)           \
   F(WaveView, origin_x) F(WaveView, origin_y) F(WaveView, origin_z) F(WaveView, direction_x)      \
   F(WaveView, direction_y) F(WaveView, direction_z) F(WaveView, throughput_r)                     \
   F(WaveView, throughput_g) F(WaveView, throughput_b) F(WaveView, pdf) F(WaveView, depth)         \
