@@ -51,22 +51,39 @@ PHYS Vec2 plane_gradient(Vec3 p, Vec3 q, float along_p, float along_q) {
   return vec2((along_p * q.y - along_q * p.y) * inverse, (along_q * p.x - along_p * q.x) * inverse);
 }
 
-/// The gradient of a texture's number in the plane of frame.s and frame.t, per metre. dpdu, dpdv: how the
-/// position moves with uv, world.
+/// How a surface moves under its textures: the world position with uv, and TexturePoint::position with a
+/// metre along the shading frame's s and t (s and t themselves but in instances).
+struct Tangents {
+  Vec3 dpdu, dpdv;
+  Vec3 solid_s, solid_t;
+};
+
+/// 1/256 of a cell of a solid texture in metres of the world, where a metre moves the texture by `moves`.
+PHYS float solid_step(Texture t, Vec3 moves) {
+  const float rate = length(moves) * (t.scale > 0.0f ? t.scale : 1.0f);
+  return rate > 0.0f ? 0.00390625f / rate : 1.0f;
+}
+
+/// The gradient of a texture's number in the plane of frame.s and frame.t, per metre.
 PHYS Vec2 texture_gradient(const UNI SceneView &scene, int32 texture, Frame frame, TexturePoint at,
-                           Vec3 dpdu, Vec3 dpdv) {
+                           Tangents tangents) {
   const Texture t = fetch(scene.textures, texture);
   const bool solid = is_solid(t);
-  // Solid textures: 1/256 of a cell along s and t.
-  const float metres = solid && t.scale > 0.0f ? 0.00390625f / t.scale : 1.0f;
-  const float step_u = solid ? metres : uv_step(t, t.m00, t.m10);
-  const float step_v = solid ? metres : uv_step(t, t.m01, t.m11);
+  const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
+  const float step_u = solid ? solid_step(t, tangents.solid_s) : uv_step(t, t.m00, t.m10);
+  const float step_v = solid ? solid_step(t, tangents.solid_t) : uv_step(t, t.m01, t.m11);
   const Vec2 uv_u = vec2(solid ? 0.0f : step_u, 0.0f);
   const Vec2 uv_v = vec2(0.0f, solid ? 0.0f : step_v);
-  const float u = texture_slope(scene, texture, at, uv_u, frame.s * metres, step_u);
-  const float v = texture_slope(scene, texture, at, uv_v, frame.t * metres, step_v);
+  Vec3 position_u = none;
+  Vec3 position_v = none;
+  if (solid) {
+    position_u = tangents.solid_s * step_u;
+    position_v = tangents.solid_t * step_v;
+  }
+  const float u = texture_slope(scene, texture, at, uv_u, position_u, step_u);
+  const float v = texture_slope(scene, texture, at, uv_v, position_v, step_v);
   if (solid) return vec2(u, v);
-  return plane_gradient(to_local(frame, dpdu), to_local(frame, dpdv), u, v);
+  return plane_gradient(to_local(frame, tangents.dpdu), to_local(frame, tangents.dpdv), u, v);
 }
 
 /// The shading normal after the maps of a material, in the shading frame: unit, z > 0. `frame` is seen from
@@ -74,7 +91,7 @@ PHYS Vec2 texture_gradient(const UNI SceneView &scene, int32 texture, Frame fram
 /// Bump maps: J. Blinn, "Simulation of Wrinkled Surfaces" (SIGGRAPH 1978), by way of the surface gradient
 /// of M. Mikkelsen, "Bump Mapping Unparametrized Surfaces on the GPU" (2010).
 PHYS_CALL Vec3 mapped_normal(const UNI SceneView &scene, Material m, Frame frame, TexturePoint at,
-                             Vec3 dpdu, Vec3 dpdv) {
+                             Tangents tangents) {
   Vec3 n = local_up();
   if (m.normal_texture >= 0) {
     const Vec3 c = texture_value(scene, m.normal_texture, at);
@@ -82,7 +99,7 @@ PHYS_CALL Vec3 mapped_normal(const UNI SceneView &scene, Material m, Frame frame
                      2.0f * c.z - 1.0f));
   }
   if (m.bump_texture >= 0) {
-    const Vec2 g = texture_gradient(scene, m.bump_texture, frame, at, dpdu, dpdv);
+    const Vec2 g = texture_gradient(scene, m.bump_texture, frame, at, tangents);
     const float height = m.bump_scale * n.z;
     n = upright(vec3(n.x - height * g.x, n.y - height * g.y, n.z));
   }

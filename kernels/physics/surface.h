@@ -60,6 +60,7 @@ struct Surface {
   // kRich only.
   TexturePoint at;
   Vec3 dpdu, dpdv;   // how position moves with uv; either may be 0
+  Vec3 solid_s, solid_t;  // shading.s and shading.t as steps of at.position
   float thickness;   // metres across a curve; 0 for everything else
 };
 
@@ -339,6 +340,13 @@ PHYS Surface make_surface(const UNI SceneView &scene, Hit hit, Vec3 origin, Vec3
     s.dpdu = local.dpdu;
     s.dpdv = local.dpdv;
     s.shading = textured_frame(ns, local.dpdu, local.dpdv);
+    s.solid_s = s.shading.s;
+    s.solid_t = s.shading.t;
+    if (scene.num_instances > 0 && hit.instance >= 0) {
+      const Instance instance = placed_instance<D>(scene, hit);
+      s.solid_s = transform_vector(instance.to_object, s.shading.s);
+      s.solid_t = transform_vector(instance.to_object, s.shading.t);
+    }
   } else {
     s.shading = make_frame(ns);
   }

@@ -21,7 +21,12 @@ PHYS Frame mapped_frame(const UNI SceneView &scene, Material m, Surface s, Vec3 
   // Maps are drawn as seen from the front.
   Frame outer = s.shading;
   if (s.front == 0) outer.n = neg(outer.n);
-  const Vec3 mapped = mapped_normal(scene, m, outer, s.at, s.dpdu, s.dpdv);
+  Tangents tangents;
+  tangents.dpdu = s.dpdu;
+  tangents.dpdv = s.dpdv;
+  tangents.solid_s = s.solid_s;
+  tangents.solid_t = s.solid_t;
+  const Vec3 mapped = mapped_normal(scene, m, outer, s.at, tangents);
   Vec3 n = safe_normalize(to_world(outer, mapped), outer.n);
   if (s.front == 0) n = neg(n);
   if (!(dot(n, direction) < 0.0f)) return s.shading;

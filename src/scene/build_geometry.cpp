@@ -88,7 +88,33 @@ void GeometryBuilder::finish(const Context &context, ShapeKind kind, size_t firs
   bounds_.push_back(bounds);
 }
 
+namespace {
+
+bool has_texture(const Material &m) {
+  return m.textured != 0 || m.emission_texture >= 0 || m.weight_texture >= 0 ||
+         m.opacity_texture >= 0 || m.normal_texture >= 0 || m.bump_texture >= 0;
+}
+
+/// The two triangles of a quad, with its texture coordinates.
+MeshShape triangles_of(const QuadShape &quad) {
+  MeshShape mesh;
+  for (const float v : {0.0f, 1.0f})
+    for (const float u : {0.0f, 1.0f}) {
+      for (size_t axis = 0; axis < 3; ++axis)
+        mesh.data.positions.push_back(static_cast<float>(
+            quad.corner[axis] + double{u} * quad.edge_u[axis] + double{v} * quad.edge_v[axis]));
+      mesh.data.uvs.insert(mesh.data.uvs.end(), {u, v});
+    }
+  mesh.data.indices = {0, 1, 3, 0, 3, 2};
+  return mesh;
+}
+
+}  // namespace
+
 void GeometryBuilder::add_quad(const QuadShape &shape, const Context &context) {
+  // A mirrored quad keeps the side that it faces by having its edges, and so u and v, exchanged.
+  if (context.mirrors && has_texture(scene_.materials[static_cast<size_t>(context.material)]))
+    return add_mesh(triangles_of(shape), context);
   Quad quad;
   quad.corner = to_vec3(transform_point(context.transform, shape.corner));
   quad.edge_u = to_vec3(transform_vector(context.transform, shape.edge_u));

@@ -95,6 +95,8 @@ void read_world(ObjectReader &object, SceneReader &reader, SceneDescription &sce
   }
   find_blended_materials(reader, scene.materials);
   reader.mesh_needs = find_mesh_needs(scene.textures, scene.materials);
+  if (scene.integrator.kind == kViewUv)
+    for (MeshNeeds &needs : reader.mesh_needs) needs.uvs = true;
 
   read_lights(object.array("lights", "lights"), reader, scene);
   read_shapes(object.array("shapes", "shapes"), reader, scene.shapes);

@@ -60,6 +60,8 @@ void check_near(Vec3 a, Vec3 b, float epsilon) {
   CHECK(std::fabs(a.z - b.z) <= epsilon);
 }
 
+const Tangents kUnitTangents = {{1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 1, 0}};
+
 }  // namespace
 
 TEST_CASE("normal map: a flat map and no map leave the normal as it is, bit for bit") {
@@ -70,7 +72,7 @@ TEST_CASE("normal map: a flat map and no map leave the normal as it is, bit for 
   both.bump_texture = bumps;
   for (const Material &m :
        {diffuse(0.5f), with_normal_map(flat, 1), with_bump_map(bumps, 100), both}) {
-    const Vec3 n = mapped_normal(set.view(), m, kFlat, point_at(0.3f, 0.4f), {1, 0, 0}, {0, 1, 0});
+    const Vec3 n = mapped_normal(set.view(), m, kFlat, point_at(0.3f, 0.4f), kUnitTangents);
     CHECK(n.x == 0.0f);
     CHECK(n.y == 0.0f);
     CHECK(n.z == 1.0f);
@@ -82,8 +84,8 @@ TEST_CASE("normal map: colours are directions, scaled across") {
   // 0.6, 0.48, 0.64 is unit.
   const int32 tilted = add_constant(set, {0.8f, 0.74f, 0.82f});
   const auto normal = [&](float scale) {
-    return mapped_normal(set.view(), with_normal_map(tilted, scale), kFlat, point_at(0, 0), kNone,
-                         kNone);
+    return mapped_normal(set.view(), with_normal_map(tilted, scale), kFlat, point_at(0, 0),
+                         {kNone, kNone, kNone, kNone});
   };
   check_near(normal(1), {0.6f, 0.48f, 0.64f}, 1e-6f);
   check_near(normal(0), {0, 0, 1}, 1e-6f);
@@ -108,7 +110,7 @@ TEST_CASE("normal map: whatever a map holds, the normal is unit and above the ho
     if (random.chance(0.1)) u = kNone;
     if (random.chance(0.1)) v = u * std::numeric_limits<float>::infinity();
     const Vec3 n = mapped_normal(set.view(), m, make_frame(random.direction()),
-                                 point_at(random.unit(), random.unit()), u, v);
+                                 point_at(random.unit(), random.unit()), {u, v, u, v});
     REQUIRE(all_finite(n));
     REQUIRE(std::fabs(length(n) - 1) < 1e-5f);
     REQUIRE(n.z > 0.0099f);
@@ -130,7 +132,7 @@ TEST_CASE("bump map: a ramp tilts the normal against its slope, whatever uv and 
     const Vec3 dpdu = to_world(frame, {random.between(0.5f, 3), random.between(-0.4f, 0.4f), 0});
     const Vec3 dpdv = to_world(frame, {random.between(-0.4f, 0.4f), random.between(0.5f, 3), 0});
     const Vec3 local = mapped_normal(set.view(), with_bump_map(ramp, bump_scale), frame,
-                                     point_at(0.25f + 0.5f * random.unit(), 0.3f), dpdu, dpdv);
+                                     point_at(0.25f + 0.5f * random.unit(), 0.3f), {dpdu, dpdv, kNone, kNone});
     // The displaced surface has the tangents dpdu + n dh/du and dpdv + n dh/dv (Blinn 1978).
     const Vec3 raised_u = dpdu + frame.n * (bump_scale * slope_u);
     const Vec3 raised_v = dpdv + frame.n * (bump_scale * slope_v);
@@ -159,9 +161,14 @@ TEST_CASE("bump map: solid textures follow the position, transformed images thei
       const Vec3 step = along * static_cast<float>(h);
       return (height(at.position + step) - height(at.position - step)) / (2 * h);
     };
-    const Vec3 n = mapped_normal(set.view(), with_bump_map(solid, 0.1f), frame, at, kNone, kNone);
-    const Vec3 expected = {static_cast<float>(-0.1 * slope(frame.s)),
-                           static_cast<float>(-0.1 * slope(frame.t)), 1};
+    // In an instance, a metre along s or t is another step of the texture: turned, scaled, sheared.
+    const bool instanced = random.chance(0.5);
+    const Vec3 along_s = instanced ? random.direction() * random.between(0.5f, 2) : frame.s;
+    const Vec3 along_t = instanced ? random.direction() * random.between(0.5f, 2) : frame.t;
+    const Vec3 n = mapped_normal(set.view(), with_bump_map(solid, 0.1f), frame, at,
+                                 {kNone, kNone, along_s, along_t});
+    const Vec3 expected = {static_cast<float>(-0.1 * slope(along_s)),
+                           static_cast<float>(-0.1 * slope(along_t)), 1};
     check_near(n, normalize(expected), 3e-3f);
   }
   // Repeated four times along u, a slope is four times as steep; mirrored, it is reversed.
@@ -172,7 +179,7 @@ TEST_CASE("bump map: solid textures follow the position, transformed images thei
     repeated.m02 = factor < 0 ? 1 : 0;
     repeated.wrap_u = kRepeat;
     const Vec3 n = mapped_normal(set.view(), with_bump_map(set.add(repeated), 1), kFlat,
-                                 point_at(0.225f, 0.5f), {1, 0, 0}, {0, 1, 0});
+                                 point_at(0.225f, 0.5f), kUnitTangents);
     check_near(n, normalize(vec3(-factor, 0, 1)), 1e-5f);
   }
 }

@@ -67,6 +67,22 @@ TEST_CASE("curves: points, segments and places along the strands") {
   CHECK(scene.view().num_curve_segments == 3);
 }
 
+TEST_CASE("curves: long thin pieces are cut, short ones stay") {
+  const Scene scene = build_good(curves(
+      R"("radius": [0.05, 0.001], "strands": [[[0, 0, 0], [0, 40, 0]], [[3, 0, 0], [3, 0.1, 0]]])"));
+  const auto num_points = scene.curve_points.size() / 4;
+  CHECK(num_points - 2 > 40 / (0.05 * 150));
+  REQUIRE(num_points - 2 < 100);
+  for (std::size_t i = 0; i + 3 < num_points; ++i) {
+    const float *const a = &scene.curve_points[4 * i], *const b = a + 4;
+    CHECK(b[1] - a[1] <= 151 * b[3]);
+    CHECK(a[3] == doctest::Approx(0.05 - 0.049 * double(a[1]) / 40));
+    CHECK(scene.curve_along[i] == doctest::Approx(double(a[1]) / 40));
+  }
+  CHECK(scene.curve_points[4 * (num_points - 3) + 1] == 40);
+  CHECK(scene.num_prims[0] == static_cast<std::int32_t>(num_points - 2));
+}
+
 TEST_CASE("curves: what they cannot be") {
   const std::string strand = R"("radius": 0.1, "strands": [[[0, 0, 0], [0, 1, 0]]])";
   check_error(curves(strand, "lamp"), "/shapes/0: curves cannot emit");

@@ -593,7 +593,12 @@ PHYS TwinOut twin_relief(const UNI SceneView &scene, const UNI FrameView &, Twin
   m.bump_texture = in_.i[1];
   const Frame frame = make_frame(vec3(0.6f, 0.0f, 0.8f));
   TwinOut r;
-  PUT3(0, mapped_normal(scene, m, frame, twin_texture_point(in_), F3(8), F3(11)))
+  Tangents tangents;
+  tangents.dpdu = F3(8);
+  tangents.dpdv = F3(11);
+  tangents.solid_s = frame.s * F(8);
+  tangents.solid_t = frame.t * F(9);
+  PUT3(0, mapped_normal(scene, m, frame, twin_texture_point(in_), tangents))
   return r;
 }
 

@@ -158,6 +158,75 @@ TEST_CASE("features: ambient occlusion of a plane is 1, and of a plane below a c
   CHECK(mean_of(render_scene(build_text(scene.dump(), isa), by(Mode::kWavefront)).film) == 1.0);
 }
 
+TEST_CASE("features: bumps of a texture in space turn with their instance") {
+  // What is seen, the lamp and the camera turn together by 90 degrees: the picture stays.
+  Json scene = Json::parse(R"({
+    "version": 1,
+    "camera": {"position": [1, 0, 4], "look_at": [0, 0, 0], "fov": 30},
+    "film": {"width": 32, "height": 32}, "sampler": {"spp": 16}, "integrator": {"max_depth": 1},
+    "textures": [{"name": "grain", "type": "noise", "a": 0, "b": 1, "scale": 3, "octaves": 1}],
+    "materials": [{"name": "m", "type": "diffuse", "reflectance": 0.5, "bump_map": "grain", "bump_scale": 0.4}],
+    "lights": [{"type": "point", "position": [3, 4, 5], "intensity": 50}],
+    "shapes": [],
+    "groups": [{"name": "ball", "shapes": [{"type": "icosphere", "material": "m", "subdivisions": 5}]}],
+    "instances": [{"group": "ball", "transform": [{"scale": [1.2, 0.8, 1]}]}]})");
+  const auto picture = [&] {
+    return render_scene(build_text(scene.dump(), isas_here().back()), by(Mode::kWavefront)).film;
+  };
+  const Film straight = picture();
+  scene["camera"]["position"] = {4, 0, -1};
+  scene["lights"][0]["position"] = {5, 4, -3};
+  scene["instances"][0]["transform"] =
+      Json::parse(R"([{"scale": [1.2, 0.8, 1]}, {"rotate": {"axis": [0, 1, 0], "angle": 90}}])");
+  const Film turned = picture();
+  scene["materials"][0]["bump_scale"] = 0;
+  const Film smooth = picture();
+  const auto difference = [](const Film &a, const Film &b) {
+    double sum = 0;
+    for (std::int64_t i = 0; i < a.num_pixels(); ++i) sum += double(abs3(a.mean(i) - b.mean(i)).y);
+    return sum / double(a.num_pixels()) / mean_of(a);
+  };
+  CHECK(difference(straight, turned) < 2e-3);
+  CHECK(difference(smooth, turned) > 0.05);
+}
+
+TEST_CASE("features: light that crosses a long thin strand is not lost") {
+  // White hair under an even sky is not seen: one event sends light on, and nothing is in its way.
+  const Json scene = Json::parse(R"({
+    "version": 1,
+    "camera": {"type": "orthographic", "height": 0.1, "position": [0, 0, 3], "look_at": [0, 0, 0]},
+    "film": {"width": 16, "height": 16}, "sampler": {"spp": 64},
+    "integrator": {"max_depth": 1},
+    "materials": [{"name": "m", "type": "hair", "absorption": 0}],
+    "lights": [{"type": "environment", "radiance": 1}],
+    "shapes": [{"type": "curves", "material": "m", "radius": 0.06, "strands": [[[0, -60, 0], [0, 60, 0]]]}]})");
+  const RenderResult r =
+      render_scene(build_text(scene.dump(), isas_here().back()), by(Mode::kWavefront));
+  CHECK(std::fabs(mean_of(r.film) - 1) < 0.01);
+}
+
+TEST_CASE("features: a mirrored quad shows its texture mirrored") {
+  Json scene = Json::parse(R"({
+    "version": 1,
+    "camera": {"type": "orthographic", "height": 2, "position": [0, 0, 3], "look_at": [0, 0, 0]},
+    "film": {"width": 16, "height": 16, "filter": {"type": "box"}}, "sampler": {"spp": 1},
+    "integrator": {"type": "albedo"},
+    "textures": [{"name": "checks", "type": "checker", "a": 0.1, "b": 0.9, "transform": {"scale": [2, 1]}}],
+    "materials": [{"name": "m", "type": "diffuse", "reflectance": "checks"}],
+    "shapes": [{"type": "quad", "material": "m", "corner": [-1, -1, 0], "edge_u": [2, 0, 0], "edge_v": [0, 2, 0]}]})");
+  const auto picture = [&] {
+    return render_scene(build_text(scene.dump(), isas_here().back()), by(Mode::kWavefront)).film;
+  };
+  const Film straight = picture();
+  scene["shapes"][0]["transform"] = Json::parse(R"([{"scale": [-1, 1, 1]}])");
+  const Film mirrored = picture();
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) {
+      CHECK(straight.mean(16 * y + x).x == (x < 8 ? 0.1f : 0.9f));
+      CHECK(mirrored.mean(16 * y + x).x == (x < 8 ? 0.9f : 0.1f));
+    }
+}
+
 TEST_CASE("features: opacity lets light through in proportion, for the eye and for lamps") {
   // A black sheet of opacity 0.3 before a lamp that fills the view.
   const Json scene = Json::parse(R"({

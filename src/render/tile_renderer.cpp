@@ -1,0 +1,152 @@
+#include "tile_renderer.h"
+
+#include <algorithm>
+
+#include "../wavefront/isa.h"
+#include "../wavefront/wavefront.h"
+
+namespace phalanx {
+
+/// What one thread owns: its wave, its sample block, its figures.
+struct TileRenderer::Worker {
+  Worker(const Plan &plan, const Kernels &kernels, Mode mode)
+      : clock(kernels.width),
+        radiance(block_size(plan) * 3),
+        aov(plan.aovs ? block_size(plan) * PHALANX_AOV_FLOATS : 0) {
+    if (mode == Mode::kWavefront) wave = std::make_unique<Wave>(plan);
+  }
+  static size_t block_size(const Plan &plan) {
+    return static_cast<size_t>(plan.tile_size) * static_cast<size_t>(plan.tile_size) *
+           static_cast<size_t>(plan.samples_per_pass);
+  }
+  std::int64_t bytes() const {
+    return static_cast<std::int64_t>((radiance.size() + aov.size()) * sizeof(float)) +
+           (wave ? wave->bytes() : 0);
+  }
+
+  void render(Mode mode, const Kernels &kernels, const Plan &plan, const SceneView &scene,
+              const TileView &tile);
+
+  std::unique_ptr<Wave> wave;
+  StageClock clock;
+  std::vector<float> radiance, aov;
+  RayCounts rays;
+  std::int64_t lanes[4] = {};  // megakernel: see megakernel.ispc
+};
+
+/// All samples of one tile in one pass, by the schedule that was asked for.
+void TileRenderer::Worker::render(Mode mode, const Kernels &kernels, const Plan &plan,
+                                  const SceneView &scene, const TileView &tile) {
+  switch (mode) {
+    case Mode::kWavefront:
+      std::fill_n(tile.radiance, 3 * tile.num_samples, 0.0f);
+      render_wavefront(kernels, plan, scene, tile, *wave, clock, rays);
+      break;
+    case Mode::kMegakernel:
+      clock.start();
+      (plan.rich ? kernels.megakernel_rich : kernels.megakernel)(scene, plan.frame, tile, lanes);
+      rays.camera += tile.num_samples;
+      rays.bounce = lanes[2];
+      rays.shadow = lanes[3];
+      clock.lap(kStageShade, tile.num_samples);
+      break;
+    case Mode::kDepthFirst:
+      clock.start();
+      kernels.depth_first(scene, plan.frame, tile, rays, plan.rich ? kRich : kPlain);
+      clock.lap(kStageShade, tile.num_samples);
+      break;
+    case Mode::kRecursive:
+      clock.start();
+      kernels.recursive(scene, plan.frame, tile, rays, plan.rich ? kRich : kPlain);
+      clock.lap(kStageShade, tile.num_samples);
+      break;
+  }
+}
+
+namespace {
+
+/// Adds a tile's samples to the film, each pixel's in sample order.
+void add_to_film(Film &film, const TileView &tile, InvalidSamples &invalid) {
+  const int samples = 1 << tile.log2_samples;
+  for (int i = 0; i < tile.num_pixels; ++i) {
+    const int x = tile.pixels[i] & 0xffff, y = (tile.pixels[i] >> 16) & 0xffff;
+    film.add_samples(x, y, tile.radiance + 3 * i * samples, samples, tile.first_sample, invalid);
+    if (tile.aov != nullptr)
+      film.add_aovs(x, y, tile.aov + PHALANX_AOV_FLOATS * i * samples, samples);
+  }
+}
+
+}  // namespace
+
+TileRenderer::TileRenderer(const Scene &scene, const Accel &accel, const Plan &plan,
+                           const RenderOptions &options)
+    : plan_(plan),
+      mode_(options.mode),
+      kernels_(kernels_for(resolve_isa(options.isa))),
+      view_(scene.view()),
+      tiles_(cut_tiles(plan.crop, plan.tile_size)),
+      pixels_(tiles_.size()),
+      invalid_(tiles_.size()),
+      workers_(static_cast<size_t>(plan.threads)) {
+  view_.accel = accel.handle();
+}
+
+TileRenderer::~TileRenderer() = default;
+
+std::int64_t TileRenderer::render(int t, const Pass &pass, int thread, Film &film) {
+  const auto at = static_cast<size_t>(t);
+  auto &worker = workers_[static_cast<size_t>(thread)];
+  if (!worker) worker = std::make_unique<Worker>(plan_, kernels_, mode_);
+  if (pixels_[at].empty()) pixels_[at] = tile_pixels(tiles_[at], plan_.tile_size);
+  TileView tile = {};
+  tile.pixels = pixels_[at].data();
+  tile.num_pixels = static_cast<int32>(pixels_[at].size());
+  tile.log2_samples = pass.log2_samples;
+  tile.first_sample = pass.first_sample;
+  tile.num_samples = tile.num_pixels << pass.log2_samples;
+  tile.radiance = worker->radiance.data();
+  tile.aov = plan_.aovs ? worker->aov.data() : nullptr;
+  const std::int64_t rays_before = worker->rays.total();
+  worker->render(mode_, kernels_, plan_, view_, tile);
+  worker->clock.start();
+  add_to_film(film, tile, invalid_[at]);
+  worker->clock.lap(kStageFilm, tile.num_samples);
+  return worker->rays.total() - rays_before;
+}
+
+void TileRenderer::collect(RunStats &stats) const {
+  stats.mode = mode_name(mode_);
+  stats.isa = kernels_.isa;
+  stats.threads = plan_.threads;
+  stats.rays = {};
+  stats.invalid = {};
+  for (const InvalidSamples &i : invalid_) stats.invalid.merge(i);
+  std::vector<StageStats> stages(kNumStages);
+  for (int s = 0; s < kNumStages; ++s) stages[s].name = stage_name(s);
+  for (const auto &w : workers_) {
+    if (!w) continue;
+    w->clock.add_to(stages);
+    stats.rays.camera += w->rays.camera;
+    stats.rays.bounce += w->rays.bounce;
+    stats.rays.shadow += w->rays.shadow;
+    stats.wave_bytes_per_thread = std::max(stats.wave_bytes_per_thread, w->bytes());
+  }
+  if (mode_ != Mode::kWavefront) {
+    StageStats &all = stages[kStageShade];
+    all.name = "trace and shade";
+    all.lanes_active = all.lanes_total = all.items;
+    if (mode_ == Mode::kMegakernel) {
+      all.lanes_active = all.lanes_total = 0;
+      for (const auto &w : workers_) {
+        if (!w) continue;
+        all.lanes_active += w->lanes[0];
+        all.lanes_total += w->lanes[1];
+      }
+    }
+  }
+  stats.stages.clear();
+  for (const StageStats &s : stages)
+    if (s.items > 0) stats.stages.push_back(s);
+}
+
+}  // namespace phalanx
