@@ -155,6 +155,7 @@ void Case::agree(Stage &stage, const std::string &isa, int spp) {
   bool has_recursive = false;
   for (const Mode mode : options_.modes) {
     options.mode = mode;
+    if (mode == Mode::kRecursive && stage.description().integrator.max_depth > kMaxRecursiveDepth) continue;
     Film film = render(stage, options).film;
     if (mode == Mode::kRecursive) {
       recursive = measure(film).mean;

@@ -278,7 +278,7 @@ void sun_seen_and_sampled(Case &c) {
 
 void weights_of_two_strategies(Case &c) {
   double worst_sum = 0, lo = 1, hi = 0;
-  const float values[] = {1e-38f, 1e-30f, 1e-10f, 1e-3f, 0.5f, 1.0f, 2.0f, 1e3f, 1e10f, 1e20f, 1e30f, 3e38f};
+  const float values[] = {1.2e-38f, 1e-30f, 1e-10f, 1e-3f, 0.5f, 1.0f, 2.0f, 1e3f, 1e10f, 1e20f, 1e30f, 3e38f};
   for (const float a : values)
     for (const float b : values) {
       const auto ab = static_cast<double>(power_heuristic(a, b)), ba = static_cast<double>(power_heuristic(b, a));

@@ -295,7 +295,7 @@ const White kWhites[] = {
     {"principled plastic", "principled", R"("base_color": 1, "roughness": 0.4)", false},
     {"principled metal", "principled", R"("base_color": 1, "metallic": 1, "roughness": 0.6)", false},
     {"principled glass", "principled", R"("base_color": 1, "transmission": 1, "roughness": 0.4)", false},
-    {"principled, coat and sheen", "principled", R"("base_color": 1, "clearcoat": 1, "sheen_color": 1)", false},
+    {"principled, coat and sheen", "principled", R"("base_color": 1, "clearcoat": 1, "clearcoat_roughness": 0.6, "sheen_color": 1)", false},
     {"phong, exponent 10", "phong", R"("reflectance": 1, "exponent": 10)", false},
     {"blinn_phong, exponent 10", "blinn_phong", R"("reflectance": 1, "exponent": 10)", false},
 };
@@ -387,7 +387,9 @@ void densities_integrate_to_one(Case &c) {
 void blends_at_their_ends(Case &c) {
   const auto blended = [](const char *weight) {
     SceneText scene = ball_under_the_sky(material("a", "rough_diffuse", R"("reflectance": 0.3)"));
-    scene.materials.push_back(material("b", "conductor", R"("reflectance": 0.8, "alpha": 0.3)"));
+    // Textured, so that alone, too, it runs the kernels with everything.
+    scene.textures = {R"({"name": "t", "type": "constant", "colour": 0.8})"};
+    scene.materials.push_back(material("b", "conductor", R"("reflectance": "t", "alpha": 0.3)"));
     scene.materials.push_back(weight[0] == 'a' || weight[0] == 'b'
                                   ? material("unused", "black")
                                   : material("m", "blend", fmt::format(R"("a": "a", "b": "b", "weight": {})", weight)));
