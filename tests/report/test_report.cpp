@@ -67,7 +67,12 @@ TEST_CASE("report: values arrive under their names") {
   CHECK(json["stages"][0]["utilisation"] == 0.75);
   CHECK(json["stages"][1]["utilisation"].is_null());
   CHECK(json["invalid"]["count"] == 1);
-  CHECK(json["invalid"]["first"] == Json({{"x", 5}, {"y", 6}, {"sample", 7}}));
+  CHECK(json["invalid"]["not_finite"] == 1);
+  CHECK(json["invalid"]["first"]["x"] == 5);
+  CHECK(json["invalid"]["first"]["y"] == 6);
+  CHECK(json["invalid"]["first"]["sample"] == 7);
+  const std::string replay = json["invalid"]["first"]["replay"];
+  CHECK(replay.starts_with("phalanx replay a.json --pixel 5,6 --sample 7 --size 320x240"));
   CHECK(json["plan"]["bytes_per_path"] == 44);
   CHECK(json["plan"]["left_out"][0]["feature"] == "shadow rays");
   CHECK(json["error"]["lo95"] == 0.009);
