@@ -145,7 +145,7 @@ Film Case::film(Stage &stage, int spp, const std::string &isa) {
   return render(stage, options).film;
 }
 
-void Case::agree(Stage &stage, const std::string &isa, int spp) {
+void Case::compare_schedules(Stage &stage, const std::string &isa, int spp) {
   if (options_.modes.size() < 2) return;
   RenderOptions options;
   options.isa = isa;
@@ -199,7 +199,7 @@ void Case::compare_mean(const std::string &what, Stage &stage, int spp, double e
     if (bound_error)
       at_most(with_isa(*this, what, isa) + ": relative standard error",
               m.standard_error / std::fabs(expected), kLargestRelativeError);
-    agree(stage, isa, samples);
+    compare_schedules(stage, isa, samples);
   }
 }
 
@@ -216,7 +216,7 @@ void Case::exact_radiance(const std::string &what, const SceneText &scene, doubl
     }
     near(with_isa(*this, what, isa), is_finite_everywhere ? worst : kUnknown, expected,
          slack * std::fabs(expected), "the pixel that is farthest off");
-    agree(built, isa, 4);
+    compare_schedules(built, isa, 4);
   }
 }
 
@@ -224,7 +224,7 @@ void Case::bounded_radiance(const std::string &what, const SceneText &scene, int
   Stage built = stage(scene);
   for (const std::string &isa : isas()) {
     within(with_isa(*this, what, isa), measure(film(built, quick() ? std::max(spp / 16, 4) : spp, isa)).mean, lo, hi);
-    agree(built, isa, spp);
+    compare_schedules(built, isa, spp);
   }
 }
 
@@ -234,8 +234,8 @@ void Case::same_bits(const std::string &what, const SceneText &a, const SceneTex
     const Film of_a = film(first, spp, isa), of_b = film(second, spp, isa);
     equal(with_isa(*this, what, isa) + ": pixels that differ",
           static_cast<double>(pixels_that_differ(of_a, of_b)), 0);
-    agree(first, isa, spp);
-    agree(second, isa, spp);
+    compare_schedules(first, isa, spp);
+    compare_schedules(second, isa, spp);
   }
 }
 
@@ -247,8 +247,8 @@ void Case::same_mean(const std::string &what, const SceneText &a, const SceneTex
     near(with_isa(*this, what, isa), of_a.mean, of_b.mean,
          kStandardErrors * std::hypot(of_a.standard_error, of_b.standard_error) +
              slack * std::fabs(of_b.mean));
-    agree(first, isa, spp);
-    agree(second, isa, spp);
+    compare_schedules(first, isa, spp);
+    compare_schedules(second, isa, spp);
   }
 }
 

@@ -101,14 +101,16 @@ class Case {
   /// Both scenes have the same mean within 4 standard errors of the difference.
   void same_mean(const std::string &what, const SceneText &a, const SceneText &b, int spp, double slack = 5e-5);
 
+  /// Renders `spp` samples a pixel, 16 at most and 4 under --quick, in all modes that are run; finish() says in how
+  /// many pixels they differ. All that measure pictures call it.
+  void compare_schedules(Stage &stage, const std::string &isa, int spp);
+
   /// Called by the runner when the case is done: findings on all its renderings.
   void finish();
 
  private:
   void compare_mean(const std::string &what, Stage &stage, int spp, double expected, double slack,
                     bool bound_error);
-  void agree(Stage &stage, const std::string &isa, int spp);
-
   const Options &options_;
   CaseResult &result_;
   std::int64_t num_renderings_ = 0, pixels_that_differ_ = 0;

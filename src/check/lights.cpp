@@ -48,7 +48,7 @@ void one_hot_texel(Case &c) {
   const std::string file = folder.picture("hot.hdr", width, height, [&](int x, int y) { return x == 0 && y == row ? hot : 0.0f; });
   SceneText scene = floor();
   scene.lights = {map_light(file)};
-  c.radiance(fmt::format("diffuse 0.5 under {} x {} pixels, one of 2^33", width, height), scene, 16384,
+  c.radiance(fmt::format("diffuse 0.5 under {} x {} pixels, one of 2^33", width, height), scene, 32768,
              0.5 / kPi * static_cast<double>(hot) * texel_irradiance(width, height, row), 5e-4);
 }
 
