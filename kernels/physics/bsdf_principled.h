@@ -137,25 +137,41 @@ struct FacetScattering {
   float probability;  // of sampling reflection
 };
 
-PHYS FacetScattering facet_scattering(Material m, Specular s, float cos_i) {
+/// cos_t: of the refracted direction, 0 under total reflection.
+PHYS FacetScattering facet_scattering(Material m, Specular s, float cos_i, float cos_t) {
   const float x = clamp_to(1.0f - cos_i, 0.0f, 1.0f);
   const float x5 = x * x * x * x * x;
   const float dielectric = 1.0f - m.metallic;
-  const Refraction r = fresnel_dielectric(cos_i, s.eta);
-  const float t = clamp_to((r.reflectance - s.f0_bare) / (1.0f - s.f0_bare), 0.0f, 1.0f);
+  float reflectance = 1.0f;
+  float transmittance = 0.0f;
+  if (cos_t > 0.0f) {
+    reflectance = fresnel_reflectance(cos_i, cos_t, s.eta);
+    transmittance = fresnel_transmittance(cos_i, cos_t, s.eta);
+  }
+  const float t = clamp_to((reflectance - s.f0_bare) / (1.0f - s.f0_bare), 0.0f, 1.0f);
   const Vec3 glass = fresnel_between(s.f0, s.f90, t);
+  // 1 - glass, which keeps its digits close to total reflection.
+  const float rest = clamp_to(transmittance / (1.0f - s.f0_bare), 0.0f, 1.0f);
+  const float edge = (1.0f - s.f90) * t;
+  const Vec3 passes = (vec3(1.0f, 1.0f, 1.0f) - s.f0) * rest + vec3(edge, edge, edge);
   FacetScattering f;
   f.reflected =
       fresnel_between(m.reflectance, 1.0f, x5) * m.metallic +
       (fresnel_between(s.f0, s.f90, x5) * (1.0f - m.transmission) + glass * m.transmission) *
           dielectric;
-  f.transmitted = m.reflectance * (vec3(1.0f, 1.0f, 1.0f) - glass) * (m.transmission * dielectric);
-  f.cos_t = r.cos_t;
-  if (!(r.cos_t > 0.0f)) f.transmitted = vec3(0.0f, 0.0f, 0.0f);
+  f.transmitted = m.reflectance * passes * (m.transmission * dielectric);
+  f.cos_t = cos_t;
+  if (!(cos_t > 0.0f)) f.transmitted = vec3(0.0f, 0.0f, 0.0f);
   const float reflected = max_component(f.reflected);
   const float transmitted = max_component(f.transmitted);
   f.probability = transmitted > 0.0f ? reflected / (reflected + transmitted) : 1.0f;
   return f;
+}
+
+/// The same where the refracted direction follows from Snell's law.
+PHYS FacetScattering facet_scattering(Material m, Specular s, float cos_i) {
+  const Refraction r = fresnel_dielectric(cos_i, s.eta);
+  return facet_scattering(m, s, cos_i, r.cos_t);
 }
 
 // ---- lobes as seen from wo ------------------------------------------------------------------------
@@ -362,7 +378,9 @@ PHYS BsdfValue eval_principled(const UNI SceneView &scene, Material m, int32 fro
     const Vec3 h = along.z > 0.0f ? along : neg(along);
     const float wo_h = min_of(dot(wo, h), 1.0f);
     if (!(wo_h > 0.0f) || dot(wi, h) > 0.0f) return no_value();
-    v = principled_transmitted(scene, m, l, facet_scattering(m, l.specular, wo_h), wo, wi, h);
+    // From both cosines as they are: close to total reflection Snell's law would lose their digits.
+    const FacetScattering facets = facet_scattering(m, l.specular, wo_h, -dot(wi, h));
+    v = principled_transmitted(scene, m, l, facets, wo, wi, h);
   }
   if (!(v.pdf > 0.0f) || !is_finite(v.pdf)) return no_value();
   return v;

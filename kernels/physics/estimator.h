@@ -192,6 +192,17 @@ PHYS Vertex arrive(const UNI SceneView &scene, PathState p, Surface s) {
   return v;
 }
 
+/// The vertex of a path that went wrong: a ray that cannot be traced ends it, and makes its sample one that is not
+/// finite, so that it is counted and can be replayed.
+PHYS Vertex fault(Vertex vertex) {
+  Vertex v = vertex;
+  const float nan = float_from_bits(0x7fc00000);
+  v.emitted = vec3(nan, nan, nan);
+  v.shadow.contribution = vec3(0.0f, 0.0f, 0.0f);
+  v.next.depth = -1;
+  return v;
+}
+
 /// Samples a light and the next direction at a surface whose material m is of this Kind.
 template <int Kind, int D>
 PHYS Vertex scatter(const UNI SceneView &scene, const UNI FrameView &frame, PathState p,
@@ -209,6 +220,7 @@ PHYS Vertex scatter(const UNI SceneView &scene, const UNI FrameView &frame, Path
   const Vec3 wo = to_local(s.shading, neg(p.direction));
   if (scene.num_lights > 0 && has_density<Kind>())
     v.shadow = direct_light<Kind, D>(scene, frame, p, m, s, wo);
+  if (!is_black(v.shadow.contribution) && !is_traceable(v.shadow.origin, v.shadow.direction)) return fault(v);
 
   const Vec2 u = vertex_pair(frame, p, PHALANX_PAIR_BSDF);
   const Vec2 u_lobe = vertex_pair(frame, p, PHALANX_PAIR_LOBE);
@@ -228,6 +240,7 @@ PHYS Vertex scatter(const UNI SceneView &scene, const UNI FrameView &frame, Path
   v.next.throughput = throughput;
   v.next.pdf = b.pdf;
   v.next.depth = p.depth + 1;
+  if (!is_traceable(v.next.origin, v.next.direction)) return fault(v);
   return v;
 }
 

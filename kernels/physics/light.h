@@ -59,6 +59,13 @@ PHYS Vec3 sample_sphere_light(Light light, Vec3 origin, Vec2 u) {
   return light.p + safe_normalize(p - light.p, neg(f.n)) * light.radius;
 }
 
+/// Is it the front of `light` that `origin` sees at p, normal n? All of a sphere's from outside: at a radius of a few
+/// ulps the normals of its points are too coarse to tell.
+PHYS bool shows_front(Light light, Vec3 origin, Vec3 p, Vec3 n) {
+  if (light.kind == kSphereLight) return length_squared(light.p - origin) > light.radius * light.radius;
+  return dot(n, origin - p) > 0.0f;
+}
+
 /// Samples the emitted radiance that reaches `origin` directly.
 PHYS LightSample sample_light(const UNI SceneView &scene, Vec3 origin, Vec2 u_choice, Vec2 u) {
   const Light light = fetch(scene.lights, choose_light(scene, u_choice));
@@ -76,7 +83,7 @@ PHYS LightSample sample_light(const UNI SceneView &scene, Vec3 origin, Vec2 u_ch
     const Vec2 d = square_to_disk(u);
     p = light.p + light.a * d.x + light.b * d.y;
   }
-  const bool front = dot(n, origin - p) > 0.0f;
+  const bool front = shows_front(light, origin, p, n);
   LightSample s;
   s.is_delta = 0;
   s.point = p;

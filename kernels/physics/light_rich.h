@@ -148,7 +148,7 @@ PHYS LightSample sample_surface(const UNI SceneView &scene, Light light, Vec3 or
   const LightPoint point = sample_surface_light(light, origin, u);
   const Vec3 p = point.position;
   const Vec3 n = point.normal;
-  const bool front = dot(n, origin - p) > 0.0f;
+  const bool front = shows_front(light, origin, p, n);
   LightSample s;
   s.is_delta = 0;
   s.point = p;

@@ -44,6 +44,11 @@ PHYS float length(Vec3 a) { return square_root(dot(a, a)); }
 PHYS float max_component(Vec3 a) { return max_of(max_of(a.x, a.y), a.z); }
 PHYS bool is_black(Vec3 a) { return a.x == 0.0f && a.y == 0.0f && a.z == 0.0f; }
 PHYS bool all_finite(Vec3 a) { return is_finite(a.x) && is_finite(a.y) && is_finite(a.z); }
+/// Can a ray be traced? Ray queries take neither NaN nor infinities nor origins beyond 1.84e18.
+PHYS bool is_traceable(Vec3 origin, Vec3 direction) {
+  return abs_of(origin.x) <= 1.84e18f && abs_of(origin.y) <= 1.84e18f && abs_of(origin.z) <= 1.84e18f &&
+         all_finite(direction);
+}
 PHYS float luminance(Vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 /// a / |a|. The caller knows that a is neither zero nor so large that its square overflows.

@@ -12,5 +12,7 @@ void add_plan_command(CLI::App &app, int &exit_code);
 void add_info_command(CLI::App &app, int &exit_code);
 void add_diff_command(CLI::App &app, int &exit_code);
 void add_compare_command(CLI::App &app, int &exit_code);
+void add_check_command(CLI::App &app, int &exit_code);
+void add_replay_command(CLI::App &app, int &exit_code);
 
 }  // namespace phalanx

@@ -10,6 +10,7 @@
 #include "../output/image_file.h"
 #include "../scene/build.h"
 #include "../scene/scene_file.h"
+#include "../scene/stiffness.h"
 #include "commands.h"
 #include "text.h"
 
@@ -77,6 +78,10 @@ void print_scene(const SceneDescription &description, const Scene &scene) {
   line("bounds", bounds_text(scene));
   line("memory", text_of_bytes(scene.bytes()) + " without ray queries");
   for (const std::string &note : scene.notes) line("note", note);
+  for (const Stiffness &stiff : find_stiffness(description, scene)) {
+    line("stiff", stiff.what);
+    line("", "-> " + stiff.remedy);
+  }
 }
 
 int info_of_scene(const std::string &path) {

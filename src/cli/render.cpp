@@ -46,13 +46,18 @@ void check_memory(const MemoryPlan &memory) {
                     text_of_bytes(memory.waves), text_of_bytes(installed)));
 }
 
-void warn_of_invalid_samples(const InvalidSamples &invalid) {
-  if (invalid.count == 0) return;
-  fmt::print(
-      stderr,
-      "phalanx: warning: {} samples were not finite and were left out; the first is sample {} "
-      "of pixel ({}, {})\n",
-      invalid.count, invalid.sample, invalid.x, invalid.y);
+void warn_of_invalid_samples(const Report &report) {
+  const RunStats &stats = report.stats;
+  const InvalidSamples &invalid = stats.invalid;
+  if (invalid.count > 0)
+    fmt::print(stderr,
+               "phalanx: warning: {} samples were left out: {} not finite, {} negative; the first is sample {} of pixel "
+               "({}, {}). To see its path:\n  {}\n",
+               invalid.count, invalid.not_finite, invalid.negative, invalid.sample, invalid.x, invalid.y,
+               replay_command(report));
+  if (stats.clamp > 0)
+    fmt::print(stderr, "phalanx: --clamp {:g} cut {} samples and took {:.3g} % of the picture's light\n", stats.clamp,
+               invalid.clamped, 100 * stats.clamped_share);
 }
 
 int exit_code_of(const RunStats &stats, bool strict) {
@@ -94,7 +99,7 @@ int run_render(const RenderCommand &command) {
                       result.stats,  estimate_error(result.film, stratified),
                       std::nullopt,  peak_rss_bytes()};
   display.finish(report.stats, report.error);
-  warn_of_invalid_samples(report.stats.invalid);
+  warn_of_invalid_samples(report);
   Image image = image_from_film(result.film, plan.frame.width, plan.frame.height, layers);
   image.metadata = report_metadata(report);
   write_outputs(outputs, image, command.exposure.value_or(description.film.exposure),
@@ -132,7 +137,12 @@ void add_render_command(CLI::App &app, int &exit_code) {
       ->type_name("STOPS");
   sub->add_option("--report", command->report, "Write a report as JSON; - is stdout")
       ->type_name("FILE");
-  sub->add_flag("--strict", command->strict, "Exit with 3 if any sample was not finite");
+  sub->add_flag("--strict", command->strict, "Exit with 3 if any sample was not finite or negative");
+  sub->add_option("--clamp", command->options.clamp,
+                  "Scale down samples whose largest channel is above this radiance: less noise, but the picture "
+                  "becomes too dark; the report says by how much. Default: none")
+      ->type_name("RADIANCE")
+      ->check(CLI::PositiveNumber);
   sub->add_flag("--quiet", command->quiet, "No progress and no summary");
   sub->footer(kExamples);
   sub->callback([command, &exit_code] { exit_code = run_render(*command); });

@@ -16,7 +16,8 @@ enum ExitCode {
   kExitInvalidSamples = 3,  // under --strict
   kExitOutOfMemory = 4,
   kExitCannotWrite = 5,
-  kExitBitsDiffer = 6,      // compare: a schedule that must equal depth-first does not
+  kExitBitsDiffer = 6,      // compare, replay: a schedule that must equal depth-first does not
+  kExitCheckFailed = 7,     // check: a case failed
 };
 
 /// One problem in an input file. Printed as `file:line:column: /json/path: message`, leaving out

@@ -6,14 +6,20 @@
 
 namespace phalanx {
 
-/// Samples that were not finite numbers: how many, and where the first one was. First is the lowest
-/// sample number, then the lowest y, then the lowest x: the same for any order of tiles.
+/// Samples that were no radiance, by kind, and where the first one was. First is the lowest sample number,
+/// then the lowest y, then the lowest x: the same for any order of tiles. Samples that --clamp has cut are counted
+/// beside them.
 struct InvalidSamples {
-  std::int64_t count = 0;
+  std::int64_t count = 0;    // not_finite + negative
   int x = -1, y = -1;        // pixel of the full picture; -1 while count is 0
   std::int64_t sample = -1;
+  std::int64_t not_finite = 0;
+  std::int64_t negative = 0;  // finite, but a channel is below 0
+  std::int64_t clamped = 0;
+  double clamped_energy = 0;  // taken off them, sum over samples of the mean of the channels
 
-  void add(int pixel_x, int pixel_y, std::int64_t sample_number);
+  enum class Kind { kNotFinite, kNegative };
+  void add(int pixel_x, int pixel_y, std::int64_t sample_number, Kind kind = Kind::kNotFinite);
   void merge(const InvalidSamples &other);
 };
 
@@ -39,6 +45,8 @@ struct RunStats {
   RayCounts rays;
   std::vector<StageStats> stages;
   InvalidSamples invalid;
+  double clamp = 0;             // limit that samples were cut to; 0: none
+  double clamped_share = 0;     // of the light of the picture, taken off by it, in [0, 1]
   std::int64_t wave_bytes_per_thread = 0;  // everything a thread allocates beyond scene and film
 };
 

@@ -8,14 +8,23 @@
 #include <cassert>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace phalanx {
 
-void InvalidSamples::add(int pixel_x, int pixel_y, std::int64_t sample_number) {
-  merge({1, pixel_x, pixel_y, sample_number});
+void InvalidSamples::add(int pixel_x, int pixel_y, std::int64_t sample_number, Kind kind) {
+  InvalidSamples one;
+  one.count = 1;
+  one.x = pixel_x;
+  one.y = pixel_y;
+  one.sample = sample_number;
+  (kind == Kind::kNegative ? one.negative : one.not_finite) = 1;
+  merge(one);
 }
 
 void InvalidSamples::merge(const InvalidSamples &other) {
+  clamped += other.clamped;
+  clamped_energy += other.clamped_energy;
   if (other.count == 0) return;
   const bool other_is_earlier =
       count == 0 || std::tie(other.sample, other.y, other.x) < std::tie(sample, y, x);
@@ -25,6 +34,8 @@ void InvalidSamples::merge(const InvalidSamples &other) {
     sample = other.sample;
   }
   count += other.count;
+  not_finite += other.not_finite;
+  negative += other.negative;
 }
 
 Film::Film(Rect crop, bool with_aovs)
@@ -41,21 +52,47 @@ std::int64_t Film::index(int x, int y) const {
   return std::int64_t{y - crop_.y} * crop_.width + (x - crop_.x);
 }
 
+namespace {
+
+/// The sample scaled so that its largest channel is `limit`: dimmer, of the same colour.
+Vec3 clamped(Vec3 sample, float limit, InvalidSamples &counts) {
+  const Vec3 cut = sample * (limit / max_component(sample));
+  counts.clamped += 1;
+  for (const auto &[before, after] : {std::pair{sample.x, cut.x}, {sample.y, cut.y}, {sample.z, cut.z}})
+    counts.clamped_energy += (double{before} - double{after}) / 3;
+  return cut;
+}
+
+}  // namespace
+
+double Film::energy() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < moments_.size(); ++i)
+    sum += (moments_[i].mean[0] + moments_[i].mean[1] + moments_[i].mean[2]) / 3 * static_cast<double>(counts_[i]);
+  return sum;
+}
+
 void Film::add_samples(int x, int y, const float *samples, int count, std::int64_t first_sample,
                        InvalidSamples &invalid) {
   const std::int64_t pixel = index(x, y);
   Moments moments = moments_[pixel];  // a local copy stays in registers
   std::int64_t n = counts_[pixel];
   for (int i = 0; i < count; i++) {
-    const float *sample = samples + 3 * std::int64_t{i};
-    if (!is_finite(sample[0]) || !is_finite(sample[1]) || !is_finite(sample[2])) {
+    Vec3 sample = {samples[3 * std::int64_t{i}], samples[3 * std::int64_t{i} + 1], samples[3 * std::int64_t{i} + 2]};
+    if (!all_finite(sample)) {
       invalid.add(x, y, first_sample + i);
       continue;
     }
+    if (sample.x < 0 || sample.y < 0 || sample.z < 0) {
+      invalid.add(x, y, first_sample + i, InvalidSamples::Kind::kNegative);
+      continue;
+    }
+    if (clamp_ > 0 && max_component(sample) > clamp_) sample = clamped(sample, clamp_, invalid);
+    const float channels[] = {sample.x, sample.y, sample.z};
     n++;
     const double weight = 1.0 / static_cast<double>(n);
     for (int c = 0; c < 3; c++) {
-      const double value = double{sample[c]};
+      const double value = double{channels[c]};
       const double from_old_mean = value - moments.mean[c];
       moments.mean[c] += from_old_mean * weight;
       moments.m2[c] += from_old_mean * (value - moments.mean[c]);

@@ -29,14 +29,20 @@ class Film {
   static std::int64_t bytes_per_pixel(bool with_aovs);
 
   /// Adds `count` samples of pixel (x, y) of the full picture: samples[3 * i] is the red of sample
-  /// i. A sample with a channel that is not finite is counted in `invalid` and left out: the pixel's
-  /// sample_count() does not grow. `first_sample` is the number of sample 0. Threads may add to
+  /// i. A sample with a channel that is not finite, or below 0, is counted in `invalid` and left out: the
+  /// pixel's sample_count() does not grow. `first_sample` is the number of sample 0. Threads may add to
   /// different pixels at the same time.
   void add_samples(int x, int y, const float *samples, int count, std::int64_t first_sample,
                    InvalidSamples &invalid);
   /// Adds `count` first-hit records of pixel (x, y): 7 floats each: albedo rgb, normal xyz, depth
   /// (metres along the ray; 0 where nothing was hit). Records that are not finite are left out.
   void add_aovs(int x, int y, const float *records, int count);
+
+  /// Samples added from now on whose largest channel exceeds `limit` are scaled down to it, and counted with
+  /// what they lose: less noise, and a picture that is too dark. 0, the default: no sample is.
+  void set_clamp(float limit) { clamp_ = limit; }
+  /// Sum over all samples taken of the mean of their channels.
+  double energy() const;
 
   std::int64_t sample_count(std::int64_t pixel) const { return counts_[pixel]; }
   Vec3 mean(std::int64_t pixel) const;             // linear RGB radiance; 0 without samples
@@ -57,6 +63,7 @@ class Film {
     std::int64_t count = 0, hits = 0;
   };
   Rect crop_;
+  float clamp_ = 0;
   std::vector<Moments> moments_;
   std::vector<std::int64_t> counts_;
   std::vector<FirstHit> first_hits_;

@@ -10,6 +10,9 @@ namespace phalanx {
 /// How the one estimator is scheduled. All but kRecursive give the same bits.
 enum class Mode { kWavefront, kMegakernel, kDepthFirst, kRecursive };
 
+/// Scattering events that recursive takes: each needs a frame of the thread's stack.
+constexpr int kMaxRecursiveDepth = 2000;
+
 const char *mode_name(Mode mode);                         // "wavefront", "depth-first", ...
 std::optional<Mode> mode_from_name(const std::string &name);
 
@@ -20,6 +23,7 @@ struct RenderOptions {
   std::array<int, 4> crop = {0, 0, 0, 0};  // x, y, w, h in pixels; w = 0: the scene's
   int max_depth = -1;           // -1 takes the scene's
   std::optional<int> seed;      // none takes the scene's
+  double clamp = 0;             // largest channel of a sample, W sr^-1 m^-2; 0: no limit
   double time_limit_s = 0;      // 0: no limit. Otherwise passes until it is used up, at least one
   int threads = 0;              // 0: all that OpenMP offers
   std::string isa;              // "sse4", "avx2", "avx512skx"; empty: the best one here

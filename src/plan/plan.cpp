@@ -203,6 +203,10 @@ Plan make_plan(const SceneDescription &description, const Scene &scene,
                const RenderOptions &options) {
   Plan plan;
   set_picture(plan, description, options);
+  if (options.mode == Mode::kRecursive && plan.frame.max_depth > kMaxRecursiveDepth)
+    throw InputError(fmt::format("recursive takes at most {} scattering events, not {}: each needs room on the stack. "
+                                 "Try --max-depth, or depth-first",
+                                 kMaxRecursiveDepth, plan.frame.max_depth));
   plan.aovs = options.aovs;
   plan.wave_size = pick(options.wave_size, kDefaultWaveSize);
   plan.tile_size = pick(options.tile_size, kDefaultTileSize);

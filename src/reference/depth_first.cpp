@@ -14,9 +14,37 @@ void store(float *block, int32 index, Vec3 v) {
   block[index + 2] = v.z;
 }
 
-template <int D>
+/// Onlookers of a path: nobody, while pictures are rendered; one who writes everything down, for replays.
+struct Nobody {
+  template <int D>
+  void left(const SceneView &, const PathState &, Vec3) {}
+  template <int D>
+  void met(const SceneView &, const PathState &, const Hit &, const Vertex &, bool, Vec3) {}
+};
+struct Writer {
+  PathSteps &steps;
+
+  template <int D>
+  void left(const SceneView &scene, const PathState &p, Vec3 radiance) {
+    PathStep step = {};
+    step.ray = p;
+    step.hit.geometry = -1;
+    step.emitted = escaped_radiance<D>(scene, p);
+    step.next = p;
+    step.next.depth = -1;
+    step.radiance = radiance;
+    steps.push_back(step);
+  }
+  template <int D>
+  void met(const SceneView &scene, const PathState &p, const Hit &hit, const Vertex &v, bool blocked, Vec3 radiance) {
+    steps.push_back({p, hit, make_surface<D>(scene, hit, p.origin, p.direction), v.emitted, v.shadow, blocked, v.next,
+                     radiance});
+  }
+};
+
+template <int D, typename Onlooker>
 Vec3 path_radiance(const SceneView &scene, const FrameView &frame, PathState p, float *aov,
-                   RayCounts &rays) {
+                   RayCounts &rays, Onlooker onlooker) {
   Vec3 radiance = {0, 0, 0};
   const float time = path_time(scene, p.scramble, p.sample);
   while (p.depth >= 0) {
@@ -31,15 +59,18 @@ Vec3 path_radiance(const SceneView &scene, const FrameView &frame, PathState p, 
     }
     if (hit.geometry < 0) {
       if (sees_environment<D>(scene, frame)) radiance = radiance + escaped_radiance<D>(scene, p);
+      onlooker.template left<D>(scene, p, radiance);
       break;
     }
     const Vertex v = path_vertex_any<D>(scene, frame, p, hit);
     radiance = radiance + v.emitted;
+    bool blocked = false;
     if (!is_black(v.shadow.contribution)) {
       rays.shadow += 1;
-      if (!trace_occluded(scene, v.shadow.origin, v.shadow.direction, v.shadow.distance, time))
-        radiance = radiance + v.shadow.contribution;
+      blocked = trace_occluded(scene, v.shadow.origin, v.shadow.direction, v.shadow.distance, time);
+      if (!blocked) radiance = radiance + v.shadow.contribution;
     }
+    onlooker.template met<D>(scene, p, hit, v, blocked, radiance);
     p = v.next;
   }
   return radiance;
@@ -52,7 +83,7 @@ void render_samples(const SceneView &scene, const FrameView &frame, const TileVi
     const TileSample at = tile_sample(tile, i);
     float *aov = tile.aov != nullptr ? tile.aov + i * PHALANX_AOV_FLOATS : nullptr;
     const PathState p = start_path(frame, at.x, at.y, at.sample);
-    store(tile.radiance, 3 * i, path_radiance<D>(scene, frame, p, aov, rays));
+    store(tile.radiance, 3 * i, path_radiance<D>(scene, frame, p, aov, rays, Nobody{}));
   }
 }
 
@@ -62,6 +93,14 @@ void PHALANX_SCHEDULE(render_depth_first)(const SceneView &scene, const FrameVie
                                           const TileView &tile, RayCounts &rays, int detail) {
   if (detail == kRich) render_samples<kRich>(scene, frame, tile, rays);
   else render_samples<kPlain>(scene, frame, tile, rays);
+}
+
+Vec3 PHALANX_SCHEDULE(replay)(const SceneView &scene, const FrameView &frame, int32 x, int32 y, int32 sample,
+                              int detail, PathSteps &steps) {
+  RayCounts rays;
+  const PathState p = start_path(frame, x, y, sample);
+  if (detail == kRich) return path_radiance<kRich>(scene, frame, p, nullptr, rays, Writer{steps});
+  return path_radiance<kPlain>(scene, frame, p, nullptr, rays, Writer{steps});
 }
 
 }  // namespace phalanx

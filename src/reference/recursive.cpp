@@ -92,6 +92,7 @@ struct Tracer {
 
   Vec3 visible(const PathState &p, const ShadowRay &ray) {
     if (is_black(ray.contribution)) return {0, 0, 0};
+    if (!is_traceable(ray.origin, ray.direction)) return fault({}).emitted;
     rays.shadow += 1;
     const float time = path_time(scene, p.scramble, p.sample);
     if (trace_occluded(scene, ray.origin, ray.direction, ray.distance, time)) return {0, 0, 0};
@@ -120,6 +121,7 @@ struct Tracer {
     next.throughput = throughput;
     next.pdf = b.pdf;
     next.depth = p.depth + 1;
+    if (!is_traceable(next.origin, next.direction)) return fault({}).emitted;
     return weight * incident(next, nullptr);
   }
 };

@@ -4,6 +4,7 @@
 #pragma once
 #include "../../kernels/path_view.h"
 #include "../core/stats.h"
+#include "path_step.h"
 
 namespace phalanx {
 
@@ -13,7 +14,10 @@ namespace phalanx {
                                 RayCounts &, int detail);                                         \
   /* recursive: L = Le + f L'; equal to rounding, for it sums from the far end of the path. */    \
   void render_recursive_##isa(const SceneView &, const FrameView &, const TileView &, RayCounts &, \
-                              int detail);
+                              int detail);                                                        \
+  /* depth-first, of one sample, with all its vertices. */                                        \
+  Vec3 replay_##isa(const SceneView &, const FrameView &, int32 x, int32 y, int32 sample,         \
+                    int detail, PathSteps &);
 
 PHALANX_DECLARE_SCHEDULES(sse4)
 PHALANX_DECLARE_SCHEDULES(avx2)

@@ -14,6 +14,7 @@ RenderResult render(const Scene &scene, const Accel &accel, const Plan &plan,
   TileRenderer tiles(scene, accel, plan, options);
   RenderResult result{Film(plan.crop, plan.aovs), {}};
   RunStats &stats = result.stats;
+  result.film.set_clamp(static_cast<float>(options.clamp));
   const std::vector<Pass> passes = cut_passes(plan.spp, plan.samples_per_pass);
 
   const double start = wall_seconds(), cpu_start = cpu_seconds();
@@ -63,6 +64,9 @@ RenderResult render(const Scene &scene, const Accel &accel, const Plan &plan,
   stats.wall_s = wall_seconds() - start;
   stats.cpu_s = cpu_seconds() - cpu_start;
   tiles.collect(stats);
+  stats.clamp = options.clamp;
+  const double kept = result.film.energy(), taken = stats.invalid.clamped_energy;
+  stats.clamped_share = taken > 0 ? taken / (kept + taken) : 0;
   return result;
 }
 

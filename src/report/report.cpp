@@ -31,10 +31,20 @@ Json stages_json(const std::vector<StageStats> &stages) {
   return list;
 }
 
-Json invalid_json(const InvalidSamples &invalid) {
+Json invalid_json(const Report &report) {
+  const InvalidSamples &invalid = report.stats.invalid;
   Json first = nullptr;
-  if (invalid.count > 0) first = {{"x", invalid.x}, {"y", invalid.y}, {"sample", invalid.sample}};
-  return {{"count", invalid.count}, {"first", first}};
+  if (invalid.count > 0)
+    first = {{"x", invalid.x}, {"y", invalid.y}, {"sample", invalid.sample}, {"replay", replay_command(report)}};
+  return {{"count", invalid.count},
+          {"not_finite", invalid.not_finite},
+          {"negative", invalid.negative},
+          {"first", first}};
+}
+
+Json clamp_json(const RunStats &stats) {
+  if (!(stats.clamp > 0)) return nullptr;
+  return {{"limit", stats.clamp}, {"samples", stats.invalid.clamped}, {"energy_share", stats.clamped_share}};
 }
 
 /// nlohmann writes NaN and infinities as null.
@@ -55,6 +65,14 @@ std::int64_t peak_rss_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return std::int64_t{usage.ru_maxrss} * 1024;  // Linux counts in KiB
+}
+
+std::string replay_command(const Report &report) {
+  const InvalidSamples &invalid = report.stats.invalid;
+  const FrameView &frame = report.plan.frame;
+  return fmt::format("phalanx replay {} --pixel {},{} --sample {} --size {}x{} --spp {} --seed {} --max-depth {} --mode {} --isa {}",
+                     report.scene, invalid.x, invalid.y, invalid.sample, frame.width, frame.height, frame.spp,
+                     frame.seed, frame.max_depth, report.stats.mode, report.stats.isa);
 }
 
 std::string report_json(const Report &report) {
@@ -86,7 +104,8 @@ std::string report_json(const Report &report) {
       {"stages", stages_json(stats.stages)},
       {"trace_only_s", report.trace_only_s ? Json(*report.trace_only_s) : Json(nullptr)},
       {"error", error_json(report.error)},
-      {"invalid", invalid_json(stats.invalid)},
+      {"invalid", invalid_json(report)},
+      {"clamp", clamp_json(stats)},
       {"plan", plan_summary_json(report.plan)},
       {"peak_rss_bytes", report.peak_rss_bytes},
   };

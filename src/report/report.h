@@ -25,6 +25,9 @@ double mrays_per_s(const RunStats &stats);
 /// The most memory this process has held.
 std::int64_t peak_rss_bytes();
 
+/// The command that shows the path of the first invalid sample, if there is one.
+std::string replay_command(const Report &report);
+
 /// JSON with every key always present; numbers that are not known are null. Ends with a newline.
 std::string report_json(const Report &report);
 

@@ -485,6 +485,11 @@ extern "C" void phalanx_intersect_lanes(void *accel, float *rays, std::int64_t l
 }
 
 Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction, float time) {
+  if (!is_traceable(origin, direction) || is_black(direction)) {
+    Hit none = {};
+    none.geometry = none.instance = -1;
+    return none;
+  }
   RTCRayHit r;
   set_ray(r.ray, origin, direction, PHALANX_FAR, time, ray_id(scene, origin, direction));
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -521,6 +526,7 @@ Hit trace_closest(const SceneView &scene, Vec3 origin, Vec3 direction, float tim
 
 bool trace_occluded(const SceneView &scene, Vec3 origin, Vec3 direction, float distance,
                     float time) {
+  if (!is_traceable(origin, direction) || is_black(direction)) return false;
   RTCRay r;
   set_ray(r, origin, direction, distance, time, ray_id(scene, origin, direction));
   phalanx_occluded(scene.accel, &r, false);

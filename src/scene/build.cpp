@@ -165,6 +165,7 @@ void SceneBuilder::add_top_level() {
 void SceneBuilder::add_groups() {
   for (const GroupDescription &group : description_.groups) {
     const std::int32_t first = num_geometries();
+    geometry_.start_group();
     int num_emitting = 0;
     for (const ShapeDescription &shape : group.shapes) {
       if (emits(shape))

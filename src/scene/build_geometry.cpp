@@ -43,6 +43,33 @@ void GeometryBuilder::add(const ShapeDescription &shape, const Transform &transf
   if (shape.material < 0 || static_cast<size_t>(shape.material) >= scene_.materials.size())
     return error(context, "there is no material " + std::to_string(shape.material));
   if (!is_finite(transform)) return error(context, "the transform is not finite");
+  const size_t before = scene_.geometries.size();
+  add_shape(shape, context);
+  if (scene_.geometries.size() == before + 1) leave_out_if_repeated(context);
+}
+
+void GeometryBuilder::leave_out_if_repeated(const Context &context) {
+  const size_t g = scene_.geometries.size() - 1;
+  const auto earlier = repeated_.find(scene_, g, context.origin);
+  if (!earlier) return;
+  const Geometry geometry = scene_.geometries[g];
+  const auto first = static_cast<size_t>(geometry.first);
+  scene_.num_dropped += scene_.num_prims[g];
+  scene_.notes.push_back(context.origin + " is the same as " + *earlier + " and left out");
+  if (geometry.shape == kMesh) scene_.triangles.resize(first);
+  if (geometry.shape == kQuads) scene_.quads.resize(first);
+  if (geometry.shape == kSpheres) scene_.spheres.resize(first);
+  if (geometry.shape == kDisks) scene_.disks.resize(first);
+  scene_.positions.resize(context.first_vertex * 3);
+  scene_.vertex_normals.resize(context.first_normal * 3);
+  scene_.vertex_uvs.resize(context.first_uv * 2);
+  scene_.vertex_colours.resize(context.first_colour * 3);
+  scene_.geometries.pop_back();
+  scene_.num_prims.pop_back();
+  bounds_.pop_back();
+}
+
+void GeometryBuilder::add_shape(const ShapeDescription &shape, const Context &context) {
   if (const auto *mesh = std::get_if<MeshShape>(&shape.shape)) add_mesh(*mesh, context);
   if (const auto *quad = std::get_if<QuadShape>(&shape.shape)) add_quad(*quad, context);
   if (const auto *spheres = std::get_if<SpheresShape>(&shape.shape)) add_spheres(*spheres, context);

@@ -6,6 +6,7 @@
 
 #include "../core/error.h"
 #include "description.h"
+#include "repeated_shapes.h"
 #include "scene.h"
 
 namespace phalanx {
@@ -44,7 +45,11 @@ class GeometryBuilder {
   /// Adds the shape, transformed by `transform` (which includes the shape's own) in double
   /// precision. Mirrors keep the outside outside. Primitives without area are left out, counted and
   /// noted; if none is left there is no record. Errors name `origin`.
+  /// So are opaque shapes that are the same as an earlier one of their space.
   void add(const ShapeDescription &shape, const Transform &transform, const std::string &origin);
+
+  /// What follows is a group of its own.
+  void start_group() { repeated_.start_space(); }
 
   /// Per geometry record, in the space of the record.
   const std::vector<Bounds> &bounds() const { return bounds_; }
@@ -63,6 +68,8 @@ class GeometryBuilder {
   void bake_normals(const MeshData &data, const Context &context);
   void add_vertex_data(const MeshData &data);
 
+  void add_shape(const ShapeDescription &shape, const Context &context);
+  void leave_out_if_repeated(const Context &context);
   void error(const Context &context, const std::string &message) const;
   void drop(const Context &context, std::int64_t count, const std::string &what);
   void finish(const Context &context, ShapeKind kind, std::size_t first, std::size_t end,
@@ -71,6 +78,7 @@ class GeometryBuilder {
   Scene &scene_;
   Diagnostics &diagnostics_;
   std::vector<Bounds> bounds_;
+  RepeatedShapes repeated_;
 };
 
 }  // namespace phalanx

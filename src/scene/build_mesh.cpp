@@ -100,6 +100,13 @@ bool GeometryBuilder::check_mesh(const MeshData &data, const Context &context) c
       static_cast<std::int64_t>(scene_.triangles.size() + data.indices.size() / 3) > kMaxElements)
     problem = "with this mesh the scene has more than " + std::to_string(kMaxElements) +
               " vertices or triangles";
+  const auto check_finite = [&](const std::vector<float> &values, size_t per_vertex, const char *what) {
+    for (size_t i = 0; i < values.size() && problem.empty(); ++i)
+      if (!std::isfinite(values[i]))
+        problem = std::string(what) + " of vertex " + std::to_string(i / per_vertex) + " are not finite";
+  };
+  check_finite(data.uvs, 2, "the texture coordinates");
+  check_finite(data.colours, 3, "the colours");
   for (size_t i = 0; i < data.indices.size() && problem.empty(); ++i)
     if (data.indices[i] < 0 || static_cast<size_t>(data.indices[i]) >= num_vertices)
       problem = "triangle " + std::to_string(i / 3) + " refers to vertex " +

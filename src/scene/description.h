@@ -222,6 +222,7 @@ struct SkyDescription {
 
 struct SceneDescription {
   std::string file;
+  Double3 origin = {0, 0, 0};           // what recentre.h has taken off all coordinates, metres
   CameraDescription camera;
   FilmDescription film;
   SamplerDescription sampler;

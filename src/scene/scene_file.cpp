@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "json_text.h"
+#include "recentre.h"
 #include "texture_keys.h"
 
 namespace phalanx {
@@ -127,6 +128,7 @@ SceneDescription parse_scene_text(const std::string &text, const std::string &na
   object.finish("a scene");
   if (diagnostics.has_errors()) return scene;
   for (const auto &generate : reader.generators) generate();
+  recentre(scene);
   return scene;
 }
 

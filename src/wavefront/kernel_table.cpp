@@ -85,6 +85,7 @@ const Kernels &PHALANX_CAT(kernels, PHALANX_ISA)() {
       KERNEL(megakernel_rich),
       PHALANX_CAT(render_depth_first, PHALANX_ISA),
       PHALANX_CAT(render_recursive, PHALANX_ISA),
+      PHALANX_CAT(replay, PHALANX_ISA),
   };
   return table;
 }

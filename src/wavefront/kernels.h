@@ -8,6 +8,7 @@
 
 #include "../../kernels/path_view.h"
 #include "../core/stats.h"
+#include "../reference/path_step.h"
 
 namespace phalanx {
 
@@ -49,6 +50,8 @@ struct Kernels {
                       int detail);
   void (*recursive)(const SceneView &, const FrameView &, const TileView &, RayCounts &,
                     int detail);
+  Vec3 (*replay)(const SceneView &, const FrameView &, int32 x, int32 y, int32 sample, int detail,
+                 PathSteps &);
 };
 
 const Kernels &kernels_sse4();

@@ -116,6 +116,32 @@ TEST_CASE("film: a sample that is not finite is counted and left out") {
   CHECK(invalid.sample == 65);
 }
 
+TEST_CASE("film: a negative sample is counted as such and left out") {
+  Film film({0, 0, 1, 1}, false);
+  InvalidSamples invalid;
+  const float samples[] = {1, 2, 3, 1, -1e-6f, 1, kNan, -1, 0, 0, 0, -0.0f};
+  film.add_samples(0, 0, samples, 4, 0, invalid);
+  CHECK(film.sample_count(0) == 2);
+  CHECK(invalid.count == 2);
+  CHECK(invalid.negative == 1);
+  CHECK(invalid.not_finite == 1);
+  CHECK(invalid.sample == 1);
+}
+
+TEST_CASE("film: clamped samples keep their colour, and what they lose is known") {
+  Film film({0, 0, 1, 1}, false);
+  film.set_clamp(2);
+  InvalidSamples counts;
+  const float samples[] = {1, 2, 0.5f, 8, 4, 0, 0, 0, 0, 0, 0, 2};
+  film.add_samples(0, 0, samples, 4, 0, counts);
+  CHECK(counts.count == 0);
+  CHECK(counts.clamped == 1);
+  CHECK(counts.clamped_energy == doctest::Approx((6 + 3) / 3.0));
+  CHECK(film.mean(0).x == doctest::Approx((1 + 2) / 4.0));
+  CHECK(film.mean(0).y == doctest::Approx((2 + 1) / 4.0));
+  CHECK(film.energy() == doctest::Approx((3.5 + 3 + 2) / 3));
+}
+
 TEST_CASE("film: the first invalid sample does not depend on the order of tiles") {
   InvalidSamples a, b, c;
   a.add(5, 5, 3);

@@ -292,3 +292,19 @@ TEST_CASE("light: the corner of the square of choices is a light, too") {
       }
   }
 }
+
+TEST_CASE("sphere light: of a few ulps across, it shows its front to everyone outside (L3)") {
+  const float radius = 1e-6f;
+  Light light = sphere_light({1, 2, 0}, radius);
+  light.emission = {1e12f, 1e12f, 1e12f};
+  const LightScene sphere({light});
+  Random random(77);
+  int dark = 0;
+  for (int i = 0; i < 10000; ++i)
+    dark += is_black(sample_light(sphere.view, vec3(0, 0, 0), random.square(), random.square()).radiance);
+  CHECK(dark == 0);
+  // And its back, black, to those within.
+  const LightScene large({sphere_light({0, 0, 0}, 1)});
+  for (int i = 0; i < 100; ++i)
+    CHECK(is_black(sample_light(large.view, random.direction() * 0.9f, random.square(), random.square()).radiance));
+}

@@ -153,3 +153,14 @@ TEST_CASE("affine: points, vectors, normals and error boxes") {
   const Vec3 box = transform_abs(m, vec3(1, 2, 3));
   CHECK((box.x == 12 && box.y == 29 && box.z == 38));
 }
+
+TEST_CASE("rays that ray queries do not take are told apart (G14)") {
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  const Vec3 o = vec3(1, -2, 3), d = vec3(0, 1, 0);
+  CHECK(is_traceable(o, d));
+  CHECK(is_traceable(vec3(-1.8e18f, 0, 1.8e18f), d));
+  for (const float bad : {nan, inf, -inf, 2e18f, -3e38f})
+    for (const Vec3 from : {vec3(bad, 0, 0), vec3(0, bad, 0), vec3(0, 0, bad)}) CHECK_FALSE(is_traceable(from, d));
+  for (const float bad : {nan, inf, -inf})
+    for (const Vec3 to : {vec3(bad, 0, 0), vec3(0, bad, 0), vec3(0, 0, bad)}) CHECK_FALSE(is_traceable(o, to));
+}

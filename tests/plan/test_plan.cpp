@@ -82,3 +82,14 @@ TEST_CASE("plan: blue noise is refused where its numbers do not suffice") {
   b.description.sampler.kind = kSobolSampler;
   CHECK(make_plan(b.description, b.scene, o).spp == 257);
 }
+
+TEST_CASE("plan: recursive refuses depths that its stack does not hold") {
+  RenderOptions o;
+  o.mode = Mode::kRecursive;
+  o.max_depth = kMaxRecursiveDepth;
+  CHECK(plan_of("scenes/cornell-box.json", o).frame.max_depth == kMaxRecursiveDepth);
+  o.max_depth += 1;
+  CHECK_THROWS_AS(plan_of("scenes/cornell-box.json", o), InputError);
+  o.mode = Mode::kDepthFirst;
+  CHECK(plan_of("scenes/cornell-box.json", o).frame.max_depth == kMaxRecursiveDepth + 1);
+}

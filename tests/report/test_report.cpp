@@ -36,12 +36,12 @@ TEST_CASE("report: all keys are present even when nothing is known") {
        {"version",        "scene",       "mode",   "isa",          "threads", "ranks",   "width",
         "height",         "spp",         "seed",   "max_depth",    "wall_s",  "cpu_s",   "setup_s",
         "rays",           "mrays_per_s", "stages", "trace_only_s", "error",   "invalid", "plan",
-        "peak_rss_bytes", "stopped_by",  "crop"})
+        "peak_rss_bytes", "stopped_by",  "crop",   "clamp"})
     CHECK_MESSAGE(json.contains(key), key);
   for (const char *key : {"camera", "bounce", "shadow"}) CHECK(json["rays"].contains(key));
   for (const char *key : {"relmse_estimate", "lo95", "hi95", "method"})
     CHECK(json["error"].contains(key));
-  for (const char *key : {"count", "first"}) CHECK(json["invalid"].contains(key));
+  for (const char *key : {"count", "not_finite", "negative", "first"}) CHECK(json["invalid"].contains(key));
   for (const char *key : {"kernels", "left_out", "bytes_per_path"})
     CHECK(json["plan"].contains(key));
   CHECK(json["trace_only_s"].is_null());
@@ -67,7 +67,12 @@ TEST_CASE("report: values arrive under their names") {
   CHECK(json["stages"][0]["utilisation"] == 0.75);
   CHECK(json["stages"][1]["utilisation"].is_null());
   CHECK(json["invalid"]["count"] == 1);
-  CHECK(json["invalid"]["first"] == Json({{"x", 5}, {"y", 6}, {"sample", 7}}));
+  CHECK(json["invalid"]["not_finite"] == 1);
+  CHECK(json["invalid"]["first"]["x"] == 5);
+  CHECK(json["invalid"]["first"]["y"] == 6);
+  CHECK(json["invalid"]["first"]["sample"] == 7);
+  const std::string replay = json["invalid"]["first"]["replay"];
+  CHECK(replay.starts_with("phalanx replay a.json --pixel 5,6 --sample 7 --size 320x240"));
   CHECK(json["plan"]["bytes_per_path"] == 44);
   CHECK(json["plan"]["left_out"][0]["feature"] == "shadow rays");
   CHECK(json["error"]["lo95"] == 0.009);

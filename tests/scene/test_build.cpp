@@ -505,6 +505,7 @@ TEST_CASE("dark and weak emitters") {
     d.materials[kTwoSidedLamp].emission = {1, 1, 1};
     d.shapes.push_back(shape(unit_quad(), kLamp));
     d.shapes.push_back(shape(unit_quad(), kTwoSidedLamp));
+    d.shapes.back().transform.m[2][3] = 1;
     const Scene scene = build(d);
     REQUIRE(scene.lights.size() == 2);
     for (const Light &light : scene.lights) CHECK(light.select_pdf > 1e-8f);

@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "report/statistics.h"
+#include "../report/statistics.h"
 
-namespace phalanx::test {
+namespace phalanx::check {
 namespace {
 
 constexpr double kSuiteLevel = 0.01;
@@ -110,4 +110,4 @@ std::string Fit::text() const {
       p, statistic, dof, mass, lost, stray);
 }
 
-}  // namespace phalanx::test
+}  // namespace phalanx::check
