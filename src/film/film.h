@@ -3,7 +3,9 @@
 // Samples of one pixel are taken in sample order, one after the other in double precision, so that a
 // picture does not depend on threads, tiles, waves or on where one pass ends and the next begins.
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,13 @@ class Film {
   /// Adds `count` first-hit records of pixel (x, y): 7 floats each: albedo rgb, normal xyz, depth
   /// (metres along the ray; 0 where nothing was hit). Records that are not finite are left out.
   void add_aovs(int x, int y, const float *records, int count);
+
+  /// Everything known of the pixels of `region`, exactly, as bytes of this machine's order. `region` is in
+  /// coordinates of the full picture and lies within the crop window.
+  std::vector<std::byte> region_bytes(Rect region) const;
+  /// Replaces what is known of the pixels of `region` by what region_bytes() gave. Throws
+  /// std::invalid_argument if the number of bytes is not the one that such a region has.
+  void set_region(Rect region, std::span<const std::byte> bytes);
 
   std::int64_t sample_count(std::int64_t pixel) const { return counts_[pixel]; }
   Vec3 mean(std::int64_t pixel) const;             // linear RGB radiance; 0 without samples
