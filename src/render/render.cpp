@@ -38,12 +38,17 @@ RenderResult render(const Scene &scene, const Accel &accel, const Plan &plan,
 
   for (const Pass &pass : passes) {
     parallel_for(tiles.num_tiles(), plan.threads, [&](std::int64_t t, int thread) {
+      if (stop) return;
       rays_done += tiles.render(static_cast<int>(t), pass, thread, result.film);
       ++tiles_done;
       if (!progress) return;
       const std::unique_lock lock(progress_mutex, std::try_to_lock);
       if (lock.owns_lock() && wall_seconds() - last_progress > 0.25) report(pass, false);
     });
+    if (stop) {  // within the pass
+      stats.stopped_by = "signal";
+      break;
+    }
     if (progress) report(pass, true);
     stats.spp = pass.first_sample + (1 << pass.log2_samples);
     if (stats.spp == plan.spp) break;

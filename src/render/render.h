@@ -19,7 +19,7 @@ struct Progress {
   bool between_passes = false;       // only then may the film be read
 };
 /// Called by one thread: within passes at most a few times a second, and after every pass. Return
-/// false to stop at the end of the running pass.
+/// false to stop: no tile is started any more, and the samples of finished tiles stay in the film.
 using ProgressCallback = std::function<bool(const Progress &, const Film &)>;
 
 struct RenderResult {
