@@ -65,6 +65,8 @@ void check_lease_outputs(const LeaseCommand &lease, const std::string &scene,
   }
   if (!lease.map.empty() && image_format(lease.map) != ImageFormat::kExr)
     throw InputError("--balance-map " + lease.map + ": its layers need an EXR file");
+  if (!lease.checkpoint.empty() && is_device(lease.checkpoint))
+    throw InputError(lease.checkpoint + ": a checkpoint needs a file, not a device");
   if (!lease.checkpoint.empty() && !lease.resume && std::filesystem::exists(lease.checkpoint))
     throw InputError(lease.checkpoint +
                      ": there is a checkpoint already; go on from it with --resume, or remove it");

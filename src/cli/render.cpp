@@ -206,6 +206,11 @@ int run_render(const RenderCommand &command) {
     return run_rank(command, ranks);
   } catch (const StoppedByOthers &) {
     return kExitDone;  // rank 0 says why, and with which code
+  } catch (const std::exception &error) {
+    if (ranks.rank() == 0) throw;
+    fmt::print(stderr, "phalanx: rank {}: {}\n", ranks.rank(), error.what());
+    ranks.limit_ending(2, 1);  // others may wait for this rank in vain
+    return 1;
   }
 }
 

@@ -127,7 +127,9 @@ std::optional<Lease> LeaseBook::grant(int rank, double now) {
     }
     const double wanted_s = std::min(terms_.longest_s, 0.25 * left_s);
     const double units = sample_s > 0 ? wanted_s / (sample_s * terms_.samples) : 1;
-    const int samples = static_cast<int>(std::clamp(std::floor(units), 1.0, 1e6)) * terms_.samples;
+    // At most as many as it has: the picture gets finer everywhere at about the same time.
+    const double most = std::max(1.0, std::floor(static_cast<double>(t.samples) / terms_.samples));
+    const int samples = static_cast<int>(std::clamp(std::floor(units), 1.0, most)) * terms_.samples;
 
     take(tile);
     const Lease lease = {next_id_++, t.rect, t.samples, t.samples + std::min(samples, missing)};

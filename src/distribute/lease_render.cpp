@@ -407,6 +407,13 @@ void Coordinator::hear_farewells(double at_most_s) {
         std::max(stats_.wave_bytes_per_thread, farewell.wave_bytes_per_thread);
     other_stages_.insert(other_stages_.end(), farewell.stages.begin(), farewell.stages.end());
   }
+  if (stop_) return;  // a signal: there was no time to wait
+  for (Peer &peer : peers_) {
+    if (peer.figures.rank == 0 || peer.said_farewell || peer.figures.lost) continue;
+    peer.figures.lost = true;
+    ranks_.give_up(peer.figures.rank);
+    warn(fmt::format("rank {} does not answer; its tiles went to others", peer.figures.rank));
+  }
 }
 
 RunStats Coordinator::stats_so_far(const std::vector<BookTile> &tiles) const {
@@ -472,7 +479,7 @@ LeaseResult Coordinator::run() {
     finish_checkpoint(true);
   }
   const double wall_s = wall_seconds() - start_;
-  hear_farewells(stop_ ? 0.2 : 2);
+  hear_farewells(stop_ ? 0.2 : kSilenceSeconds);
   crew_.stop();
 
   LeaseResult result{std::move(film_), {}, map(), checkpoint_failure_};

@@ -67,6 +67,8 @@ Ranks::Ranks() {
   if (rank_in_environment() < 0) return;
   // Shared memory is read by copying through it, not out of a process that may be gone meanwhile.
   setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
+  // No barrier before the end: with lost ranks it may never open.
+  setenv("OMPI_MCA_async_mpi_finalize", "1", 0);
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
