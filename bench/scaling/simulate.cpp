@@ -7,12 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <deque>
 #include <queue>
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "distribute/lease_book.h"
 #include "distribute/partition.h"
 #include "film/film.h"
