@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/text.h"
 #include "core/error.h"
+#include "distribute/ranks.h"
 #include "report/version.h"
 #include "scene/accel.h"
 #include "wavefront/isa.h"
@@ -24,7 +25,12 @@ std::string version_text() {
                      best_isa());
 }
 
+/// Of several ranks with the same command line one is enough to say what is wrong with it, and to end
+/// with that code.
+bool speaks() { return launched_rank() == 0; }
+
 int bad_command_line(const CLI::App &app, const CLI::ParseError &error) {
+  if (!speaks()) return kExitDone;
   if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
   fmt::print(stderr, "phalanx: {}\nSee phalanx --help, or phalanx COMMAND --help.\n", error.what());
   return kExitBadInput;
@@ -83,6 +89,7 @@ int main(int argc, char **argv) {
     flush_stdout();
     return exit_code;
   } catch (const InputError &error) {
+    if (!speaks()) return kExitDone;
     print_problems(error.problems());
     return kExitBadInput;
   } catch (const WriteError &error) {

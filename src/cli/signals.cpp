@@ -12,8 +12,9 @@ namespace {
 constexpr std::int64_t kOneSignal = 200'000'000;  // nanoseconds
 
 std::atomic<int> caught = 0;
+std::atomic<bool> snapshot = false;
 std::atomic<std::int64_t> caught_at = 0;
-static_assert(std::atomic<int>::is_always_lock_free &&
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free &&
               std::atomic<std::int64_t>::is_always_lock_free);  // or a handler must not use them
 
 std::int64_t nanoseconds() {
@@ -43,9 +44,20 @@ void on_signal(int signal) {
   }
 }
 
+void on_snapshot(int) { snapshot = true; }
+
 }  // namespace
 
-void catch_stop_signals() { set_action(on_signal); }
+void catch_stop_signals() {
+  set_action(on_signal);
+  struct sigaction action = {};
+  action.sa_handler = on_snapshot;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGUSR1, &action, nullptr);
+}
+
+bool snapshot_requested() { return snapshot.exchange(false); }
 
 int stop_signal() { return caught; }
 

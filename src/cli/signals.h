@@ -11,4 +11,7 @@ void catch_stop_signals();
 /// The signal that was caught, or 0.
 int stop_signal();
 
+/// Has SIGUSR1 arrived since the last call? Only after catch_stop_signals(); before it ends the program.
+bool snapshot_requested();
+
 }  // namespace phalanx

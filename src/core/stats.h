@@ -35,9 +35,27 @@ struct RayCounts {
   std::int64_t total() const { return camera + bounce + shadow; }
 };
 
+/// What one rank did. Seconds are a thread's, on average over the rank's threads.
+struct RankStats {
+  int rank = 0, threads = 1;
+  double busy_s = 0;           // rendering, wall clock
+  double waiting_s = 0;        // for a tile to render
+  double communicating_s = 0;  // packing, sending and receiving, on a thread of its own
+  std::int64_t tiles = 0;      // leases that came back
+  std::int64_t rays = 0;       // of those leases
+  bool lost = false;           // it stopped answering before the end
+};
+
+/// Largest busy_s over their mean; 1 where nothing was rendered. Ranks that were lost do not count.
+double imbalance(const std::vector<RankStats> &ranks);
+
 struct RunStats {
   std::string mode, isa;
   int threads = 1, ranks = 1;
+  std::string balance;         // how tiles were shared among ranks; empty: they were not
+  std::vector<RankStats> per_rank;  // empty: rendered without leases
+  int resumed_spp = 0;         // samples of each pixel that came from a checkpoint
+  std::vector<std::string> warnings;
   int spp = 0;                 // done, for every pixel
   std::string stopped_by;      // "spp", "time" or "signal"
   double setup_s = 0;          // reading, building, Embree commit

@@ -6,7 +6,9 @@
 #include "film.h"
 
 #include <cassert>
+#include <cstring>
 #include <limits>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -118,6 +120,53 @@ void Film::add_aovs(int x, int y, const float *records, int count) {
     sum.hits += record[6] > 0 ? 1 : 0;
     sum.count++;
   }
+}
+
+namespace {
+
+template <typename T>
+void copy_rows_out(const std::vector<T> &plane, std::int64_t first, std::int64_t stride, Rect region,
+                   std::byte *&out) {
+  const std::size_t row = static_cast<std::size_t>(region.width) * sizeof(T);
+  for (int y = 0; y < region.height; y++, out += row)
+    std::memcpy(out, &plane[static_cast<std::size_t>(first + y * stride)], row);
+}
+
+template <typename T>
+void copy_rows_in(std::vector<T> &plane, std::int64_t first, std::int64_t stride, Rect region,
+                  const std::byte *&in) {
+  const std::size_t row = static_cast<std::size_t>(region.width) * sizeof(T);
+  for (int y = 0; y < region.height; y++, in += row)
+    std::memcpy(&plane[static_cast<std::size_t>(first + y * stride)], in, row);
+}
+
+std::size_t bytes_of(Rect region, bool with_aovs) {
+  return static_cast<std::size_t>(std::int64_t{region.width} * region.height *
+                                  Film::bytes_per_pixel(with_aovs));
+}
+
+}  // namespace
+
+std::vector<std::byte> Film::region_bytes(Rect region) const {
+  std::vector<std::byte> bytes(bytes_of(region, has_aovs()));
+  if (bytes.empty()) return bytes;
+  const std::int64_t first = index(region.x, region.y);
+  std::byte *out = bytes.data();
+  copy_rows_out(moments_, first, crop_.width, region, out);
+  copy_rows_out(counts_, first, crop_.width, region, out);
+  if (has_aovs()) copy_rows_out(first_hits_, first, crop_.width, region, out);
+  return bytes;
+}
+
+void Film::set_region(Rect region, std::span<const std::byte> bytes) {
+  if (bytes.size() != bytes_of(region, has_aovs()))
+    throw std::invalid_argument("a region of the film has another number of bytes");
+  if (bytes.empty()) return;
+  const std::int64_t first = index(region.x, region.y);
+  const std::byte *in = bytes.data();
+  copy_rows_in(moments_, first, crop_.width, region, in);
+  copy_rows_in(counts_, first, crop_.width, region, in);
+  if (has_aovs()) copy_rows_in(first_hits_, first, crop_.width, region, in);
 }
 
 namespace {

@@ -3,7 +3,9 @@
 // Samples of one pixel are taken in sample order, one after the other in double precision, so that a
 // picture does not depend on threads, tiles, waves or on where one pass ends and the next begins.
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +45,12 @@ class Film {
   void set_clamp(float limit) { clamp_ = limit; }
   /// Sum over all samples taken of the mean of their channels.
   double energy() const;
+  /// Everything known of the pixels of `region`, exactly, as bytes of this machine's order. `region` is in
+  /// coordinates of the full picture and lies within the crop window.
+  std::vector<std::byte> region_bytes(Rect region) const;
+  /// Replaces what is known of the pixels of `region` by what region_bytes() gave. Throws
+  /// std::invalid_argument if the number of bytes is not the one that such a region has.
+  void set_region(Rect region, std::span<const std::byte> bytes);
 
   std::int64_t sample_count(std::int64_t pixel) const { return counts_[pixel]; }
   Vec3 mean(std::int64_t pixel) const;             // linear RGB radiance; 0 without samples

@@ -55,6 +55,7 @@ void set_picture(Plan &plan, const SceneDescription &d, const RenderOptions &o) 
                                  c.x, c.y, c.width, c.height, f.width, f.height));
   plan.spp = pick(o.spp, d.sampler.spp);
   plan.time_limit_s = o.time_limit_s;
+  plan.clamp = static_cast<float>(o.clamp);
   plan.filter_offsets = filter_offsets(d.film);
   f.filter_offsets = plan.filter_offsets.data();
   f.sampler = d.sampler.kind;

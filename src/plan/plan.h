@@ -33,6 +33,7 @@ struct Plan {
   Rect crop;                            // what is rendered of it
   int spp = 0;
   double time_limit_s = 0;
+  float clamp = 0;                      // see Film::set_clamp()
   // What the scene uses.
   bool material_kinds[kNumMaterialKinds] = {};
   bool sample_lights = false;           // next-event estimation, shadow queue

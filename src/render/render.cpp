@@ -9,12 +9,18 @@
 
 namespace phalanx {
 
+void add_clamp_figures(RunStats &stats, const Film &film, float limit) {
+  stats.clamp = limit;
+  const double kept = film.energy(), taken = stats.invalid.clamped_energy;
+  stats.clamped_share = taken > 0 ? taken / (kept + taken) : 0;
+}
+
 RenderResult render(const Scene &scene, const Accel &accel, const Plan &plan,
                     const RenderOptions &options, const ProgressCallback &progress) {
   TileRenderer tiles(scene, accel, plan, options);
   RenderResult result{Film(plan.crop, plan.aovs), {}};
   RunStats &stats = result.stats;
-  result.film.set_clamp(static_cast<float>(options.clamp));
+  result.film.set_clamp(plan.clamp);
   const std::vector<Pass> passes = cut_passes(plan.spp, plan.samples_per_pass);
 
   const double start = wall_seconds(), cpu_start = cpu_seconds();
@@ -39,12 +45,17 @@ RenderResult render(const Scene &scene, const Accel &accel, const Plan &plan,
 
   for (const Pass &pass : passes) {
     parallel_for(tiles.num_tiles(), plan.threads, [&](std::int64_t t, int thread) {
+      if (stop) return;
       rays_done += tiles.render(static_cast<int>(t), pass, thread, result.film);
       ++tiles_done;
       if (!progress) return;
       const std::unique_lock lock(progress_mutex, std::try_to_lock);
       if (lock.owns_lock() && wall_seconds() - last_progress > 0.25) report(pass, false);
     });
+    if (stop) {  // within the pass
+      stats.stopped_by = "signal";
+      break;
+    }
     if (progress) report(pass, true);
     stats.spp = pass.first_sample + (1 << pass.log2_samples);
     if (stats.spp == plan.spp) break;
@@ -64,9 +75,7 @@ RenderResult render(const Scene &scene, const Accel &accel, const Plan &plan,
   stats.wall_s = wall_seconds() - start;
   stats.cpu_s = cpu_seconds() - cpu_start;
   tiles.collect(stats);
-  stats.clamp = options.clamp;
-  const double kept = result.film.energy(), taken = stats.invalid.clamped_energy;
-  stats.clamped_share = taken > 0 ? taken / (kept + taken) : 0;
+  add_clamp_figures(stats, result.film, plan.clamp);
   return result;
 }
 

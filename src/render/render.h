@@ -19,13 +19,16 @@ struct Progress {
   bool between_passes = false;       // only then may the film be read
 };
 /// Called by one thread: within passes at most a few times a second, and after every pass. Return
-/// false to stop at the end of the running pass.
+/// false to stop: no tile is started any more, and the samples of finished tiles stay in the film.
 using ProgressCallback = std::function<bool(const Progress &, const Film &)>;
 
 struct RenderResult {
   Film film;
   RunStats stats;
 };
+
+/// What --clamp took, once `stats` has the counts of samples and `film` the picture.
+void add_clamp_figures(RunStats &stats, const Film &film, float limit);
 
 /// Renders `plan.frame` of `scene`. Deterministic: the film's bits depend on scene, frame, spp and
 /// ISA alone, not on threads, tile size, wave size or (but for recursive) the mode.

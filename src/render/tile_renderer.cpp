@@ -95,12 +95,22 @@ TileRenderer::~TileRenderer() = default;
 
 std::int64_t TileRenderer::render(int t, const Pass &pass, int thread, Film &film) {
   const auto at = static_cast<size_t>(t);
+  if (pixels_[at].empty()) pixels_[at] = tile_pixels(tiles_[at], plan_.tile_size);
+  return render(pixels_[at], pass, thread, film, invalid_[at]);
+}
+
+std::int64_t TileRenderer::render(const Rect &tile, const Pass &pass, int thread, Film &film,
+                                  InvalidSamples &invalid) {
+  return render(tile_pixels(tile, plan_.tile_size), pass, thread, film, invalid);
+}
+
+std::int64_t TileRenderer::render(const std::vector<std::int32_t> &pixels, const Pass &pass,
+                                  int thread, Film &film, InvalidSamples &invalid) {
   auto &worker = workers_[static_cast<size_t>(thread)];
   if (!worker) worker = std::make_unique<Worker>(plan_, kernels_, mode_);
-  if (pixels_[at].empty()) pixels_[at] = tile_pixels(tiles_[at], plan_.tile_size);
   TileView tile = {};
-  tile.pixels = pixels_[at].data();
-  tile.num_pixels = static_cast<int32>(pixels_[at].size());
+  tile.pixels = pixels.data();
+  tile.num_pixels = static_cast<int32>(pixels.size());
   tile.log2_samples = pass.log2_samples;
   tile.first_sample = pass.first_sample;
   tile.num_samples = tile.num_pixels << pass.log2_samples;
@@ -109,9 +119,14 @@ std::int64_t TileRenderer::render(int t, const Pass &pass, int thread, Film &fil
   const std::int64_t rays_before = worker->rays.total();
   worker->render(mode_, kernels_, plan_, view_, tile);
   worker->clock.start();
-  add_to_film(film, tile, invalid_[at]);
+  add_to_film(film, tile, invalid);
   worker->clock.lap(kStageFilm, tile.num_samples);
   return worker->rays.total() - rays_before;
+}
+
+RayCounts TileRenderer::rays(int thread) const {
+  const auto &worker = workers_[static_cast<size_t>(thread)];
+  return worker ? worker->rays : RayCounts{};
 }
 
 void TileRenderer::collect(RunStats &stats) const {

@@ -31,11 +31,20 @@ class TileRenderer {
   /// tiles at the same time. Returns the number of rays.
   std::int64_t render(int t, const Pass &pass, int thread, Film &film);
 
+  /// The same for any rectangle of at most tile_size x tile_size pixels. Invalid samples are counted in
+  /// `invalid`, and not among those of collect().
+  std::int64_t render(const Rect &tile, const Pass &pass, int thread, Film &film,
+                      InvalidSamples &invalid);
+  /// Rays of everything that a thread has rendered so far. Only while it does not render.
+  RayCounts rays(int thread) const;
+
   /// Rays, stages, invalid samples and memory of everything rendered so far. Not while rendering.
   void collect(RunStats &stats) const;
 
  private:
   struct Worker;
+  std::int64_t render(const std::vector<std::int32_t> &pixels, const Pass &pass, int thread,
+                      Film &film, InvalidSamples &invalid);
   const Plan &plan_;
   const Mode mode_;
   const Kernels &kernels_;

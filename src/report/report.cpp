@@ -55,6 +55,20 @@ Json error_json(const ErrorEstimate &error) {
           {"method", error.method}};
 }
 
+Json ranks_json(const std::vector<RankStats> &ranks) {
+  Json list = Json::array();
+  for (const RankStats &r : ranks)
+    list.push_back({{"rank", r.rank},
+                    {"threads", r.threads},
+                    {"busy_s", r.busy_s},
+                    {"waiting_s", r.waiting_s},
+                    {"communicating_s", r.communicating_s},
+                    {"tiles", r.tiles},
+                    {"rays", r.rays},
+                    {"lost", r.lost}});
+  return list;
+}
+
 }  // namespace
 
 double mrays_per_s(const RunStats &stats) {
@@ -86,6 +100,9 @@ std::string report_json(const Report &report) {
       {"isa", stats.isa},
       {"threads", stats.threads},
       {"ranks", stats.ranks},
+      {"balance", stats.balance.empty() ? Json(nullptr) : Json(stats.balance)},
+      {"imbalance", stats.per_rank.empty() ? Json(nullptr) : Json(imbalance(stats.per_rank))},
+      {"per_rank", ranks_json(stats.per_rank)},
       {"width", frame.width},
       {"height", frame.height},
       {"crop", {crop.x, crop.y, crop.width, crop.height}},
@@ -93,6 +110,8 @@ std::string report_json(const Report &report) {
       {"seed", frame.seed},
       {"max_depth", frame.max_depth},
       {"stopped_by", stats.stopped_by},
+      {"resumed_spp", stats.resumed_spp},
+      {"warnings", stats.warnings},
       {"wall_s", stats.wall_s},
       {"cpu_s", stats.cpu_s},
       {"setup_s", stats.setup_s},

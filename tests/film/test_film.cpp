@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <stdexcept>
 #include <tuple>
 
 using namespace phalanx;
@@ -174,4 +175,32 @@ TEST_CASE("film: first hits are averaged, depth over those that hit") {
 TEST_CASE("film: without first hits there are no planes for them") {
   CHECK_FALSE(one_pixel().has_aovs());
   CHECK(Film::bytes_per_pixel(false) < Film::bytes_per_pixel(true));
+}
+
+TEST_CASE("film: a region goes out and in to the last bit, and nothing else changes") {
+  for (const bool aovs : {false, true}) {
+    const Rect crop = {10, 20, 7, 5}, region = {12, 21, 4, 3};
+    Film a(crop, aovs), b(crop, aovs);
+    InvalidSamples invalid;
+    for (int y = 20; y < 25; ++y)
+      for (int x = 10; x < 17; ++x) {
+        const float samples[] = {0.1f * static_cast<float>(x), 3, 1e-30f, 5, kNan, 1, 7, 8, 1e20f};
+        const float records[] = {0.1f, 0.2f, 0.3f, 0, 1, 0, static_cast<float>(y)};
+        a.add_samples(x, y, samples, 3, 0, invalid);
+        b.add_samples(x, y, samples + 6, 1, 0, invalid);
+        if (aovs) a.add_aovs(x, y, records, 1);
+      }
+    const std::vector<std::byte> before = b.region_bytes({10, 24, 7, 1});
+    b.set_region(region, a.region_bytes(region));
+    CHECK(b.region_bytes(region) == a.region_bytes(region));
+    CHECK(b.region_bytes({10, 24, 7, 1}) == before);
+    CHECK(b.mean(8).x != a.mean(8).x);   // (11, 21): beside the region
+    CHECK(b.mean(9).x == a.mean(9).x);   // (12, 21)
+    CHECK(b.sample_count(9) == 2);
+    Film tile(region, aovs);  // a film of the region alone
+    tile.set_region(region, a.region_bytes(region));
+    CHECK(tile.mean(0).x == a.mean(9).x);
+    CHECK_THROWS_AS(tile.set_region(region, before), std::invalid_argument);
+    CHECK(a.region_bytes({12, 21, 0, 0}).empty());
+  }
 }
