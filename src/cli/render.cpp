@@ -40,10 +40,21 @@ void check_memory(const MemoryPlan &memory) {
     throw MemoryError(
         fmt::format("this needs {} of memory (scene {}, film {}, ray queries {}, waves {}); the "
                     "machine has {}. "
-                    "Try a smaller --size or a --crop",
+                    "Try a smaller --size or a --crop{}",
                     text_of_bytes(memory.total()), text_of_bytes(memory.scene),
                     text_of_bytes(memory.film), text_of_bytes(memory.accel_estimate),
-                    text_of_bytes(memory.waves), text_of_bytes(installed)));
+                    text_of_bytes(memory.waves), text_of_bytes(installed),
+                    memory.replicates > 0 ? fmt::format(", or leave out the error estimate ({})",
+                                                        text_of_bytes(memory.replicates))
+                                          : ""));
+}
+
+/// Replicates have the same number of samples each, and so have quarters of them with --adaptive.
+void say_if_rounded(const Plan &plan, int wanted, bool quiet) {
+  if (quiet || plan.spp == wanted || plan.spp >= kNoSampleLimit) return;
+  fmt::print(stderr, "phalanx: {} samples per pixel instead of {}: {}{}\n", plan.spp, wanted,
+             plan.replicates > 0 ? fmt::format("a multiple of {} replicates", plan.replicates) : "",
+             plan.adaptive ? plan.replicates > 0 ? ", each a multiple of 4" : "a multiple of 4" : "");
 }
 
 void warn_of_invalid_samples(const InvalidSamples &invalid) {
@@ -76,6 +87,7 @@ int run_render(const RenderCommand &command) {
   print_problems(diagnostics.warnings(), "warning: ");
   diagnostics.throw_if_errors();
   const Plan plan = make_plan(description, scene, options);
+  say_if_rounded(plan, options.spp > 0 ? options.spp : description.sampler.spp, command.quiet);
   check_memory(plan_memory(plan, scene));
   const Accel accel(scene, options.isa, options.threads);
   const double setup_s = wall_seconds() - start;
@@ -91,9 +103,10 @@ int run_render(const RenderCommand &command) {
   result.stats.setup_s = setup_s;
 
   const Report report{command.scene, plan,
-                      result.stats,  estimate_error(result.film, stratified),
-                      std::nullopt,  peak_rss_bytes()};
-  display.finish(report.stats, report.error);
+                      result.stats,  result.error.value_or(estimate_error(result.film, stratified)),
+                      std::nullopt,  peak_rss_bytes(),
+                      result.replicates ? tile_errors(*result.replicates) : std::vector<TileError>()};
+  display.finish(report.stats, report.error, plan.target_error);
   warn_of_invalid_samples(report.stats.invalid);
   Image image = image_from_film(result.film, plan.frame.width, plan.frame.height, layers);
   image.metadata = report_metadata(report);
@@ -107,6 +120,7 @@ const char kExamples[] =
     "Examples:\n"
     "  phalanx render scenes/cornell-box.json -o box.png\n"
     "  phalanx render scenes/cornell-box.json --time 30 -o box.exr --report box-report.json\n"
+    "  phalanx render scenes/cornell-box.json --target-error 1e-3 --time 600 -o box.exr\n"
     "  phalanx render scenes/cornell-box.json --size 320x240 --crop 100,50,64,64 --spp 256\n"
     "  phalanx render scenes/cornell-box.json -o box.exr --aov albedo,normal,variance,samples\n"
     "Exit codes: 0 done, 2 bad command line or scene, 3 invalid samples under --strict,\n"
