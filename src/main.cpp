@@ -50,6 +50,7 @@ int run(int argc, char **argv) {
   add_info_command(app, exit_code);
   add_diff_command(app, exit_code);
   add_compare_command(app, exit_code);
+  add_converge_command(app, exit_code);
   if (argc > 1) check_command(app, argv[1]);
   try {
     app.parse(argc, argv);

@@ -12,5 +12,6 @@ void add_plan_command(CLI::App &app, int &exit_code);
 void add_info_command(CLI::App &app, int &exit_code);
 void add_diff_command(CLI::App &app, int &exit_code);
 void add_compare_command(CLI::App &app, int &exit_code);
+void add_converge_command(CLI::App &app, int &exit_code);
 
 }  // namespace phalanx
