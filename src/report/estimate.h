@@ -28,12 +28,16 @@ struct ErrorEstimate {
 ErrorEstimate estimate_error(const Film &film, bool stratified);
 
 /// From the spread of replicates. The mean over pixels and channels of v / (r^2 + eps): v is the variance of
-/// the mean of the R replicates, eps as above, and r the mean after Lee's filter over 7 x 7 pixels (Lee,
-/// "Digital image enhancement and noise filtering by use of local statistics", 1980). The pixel's own mean
-/// would not do: where a rare bright sample makes v large, it makes the mean large, too. The interval is
-/// Student's t with R - 1 degrees of freedom on the logarithm, with the standard error of the jackknife over
-/// replicates (Tukey 1958); NaN with two replicates. It is about the error that such pictures have on
-/// average. What no replicate has seen, it cannot know.
+/// the mean of the R replicates, eps as above. The pixel's own mean would not do for r: where a rare bright
+/// sample makes v large, it makes the mean large, too, and the quotient small. So r is between the pixel's
+/// mean and the average of its neighbours, nearer to these the larger v is against their spread
+/// (James and Stein 1961; Lee, "Digital image enhancement and noise filtering by use of local statistics",
+/// 1980), and what bias is left is reduced by the jackknife over replicates (Quenouille 1956).
+///
+/// The interval is on the logarithm. Its half width is the root of the sum of squares of a statistical part,
+/// Student's t with R - 1 degrees of freedom times the jackknife's standard error (Tukey 1958), and a
+/// systematic one, half of what all this has changed against own means. NaN with two replicates. It is about
+/// the error that such pictures have on average. What no replicate has seen, it cannot know.
 ErrorEstimate estimate_error(const Replicates &replicates, int threads);
 
 /// A tile of 8 x 8 pixels, cut off at the right and the bottom. x, y: in the full picture.

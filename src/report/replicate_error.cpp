@@ -11,7 +11,8 @@ namespace phalanx {
 namespace {
 
 constexpr int kTileSide = 8;
-constexpr int kReach = 3;  // of the filter for denominators: windows of 7 x 7 pixels
+constexpr int kReach = 3;           // of the widest window of neighbours, pixels
+constexpr double kReliable = 0.1;   // relative variance of the sum over a window
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 double square(double x) { return x * x; }
@@ -84,88 +85,96 @@ Planes planes_of(const Replicates &replicates, int threads) {
   return p;
 }
 
-/// Sums over a window of pixels: how many, their means, squares of these, variances.
+/// Sums over pixels: how many, their means, squares of these, variances.
 struct Window {
   double n = 0, mean = 0, square = 0, variance = 0;
-  void add(const Window &w, double sign) {
-    n += sign * w.n;
-    mean += sign * w.mean;
-    square += sign * w.square;
-    variance += sign * w.variance;
-  }
-  /// Lee's filter: the pixel's own mean where neighbours differ by more than noise, theirs where they do not.
-  double filtered(double own) const {
-    const double average = mean / n, noise = variance / n;
-    const double spread = std::max(0.0, (square - n * average * average) / std::max(1.0, n - 1));
-    const double weight = spread > noise ? 1 - noise / spread : 0;
-    return average + weight * (own - average);
+  void add(double m, double v) {
+    n += 1;
+    mean += m;
+    square += m * m;
+    variance += v;
   }
 };
 
-/// 1 / (r^2 + eps) for channel c of the pixels of row y, r the filtered mean.
-std::vector<double> row_weights(const Planes &p, int width, int height, int y, int c, double eps) {
-  std::vector<Window> columns(static_cast<std::size_t>(width));
-  for (int v = std::max(0, y - kReach); v <= std::min(height - 1, y + kReach); ++v)
-    for (int x = 0; x < width; ++x) {
-      const std::size_t at = (static_cast<std::size_t>(v) * width + x) * 3 + c;
-      const double m = double{p.mean[at]};
-      columns[static_cast<std::size_t>(x)].add({1, m, m * m, double{p.variance[at]}}, 1);
-    }
-  std::vector<double> weights(static_cast<std::size_t>(width));
-  for (int x = 0; x < width; ++x) {
-    Window window;
-    for (int u = std::max(0, x - kReach); u <= std::min(width - 1, x + kReach); ++u)
-      window.add(columns[static_cast<std::size_t>(u)], 1);
-    const double own = double{p.mean[(static_cast<std::size_t>(y) * width + x) * 3 + c]};
-    weights[static_cast<std::size_t>(x)] = 1 / (square(window.filtered(own)) + eps);
+/// What a pixel is taken to be, and how much of its own mean is in that.
+struct Shrunk {
+  double mean = 0;
+  double weight = 1;
+};
+
+/// Channel c of the pixel (x, y) of a picture of width x height. Its neighbours' spread beyond noise says how
+/// far it may be from their average, its variance how far from its own mean: the posterior of normal
+/// distributions. Neighbours are the eight around it, or those up to three pixels away if so few have seen
+/// light that the standard error of the average is above a third of it.
+Shrunk shrunk(const Planes &p, int width, int height, int x, int y, int c) {
+  const auto index = [&](int u, int v) { return (static_cast<std::size_t>(v) * width + u) * 3 + c; };
+  const double own = double{p.mean[index(x, y)]}, own_variance = double{p.variance[index(x, y)]};
+  if (own_variance == 0) return {own, 1};
+  Window w;
+  bool reliable = false;
+  for (int reach = 1; reach <= kReach && !reliable; ++reach) {
+    w = {};
+    for (int v = std::max(0, y - reach); v <= std::min(height - 1, y + reach); ++v)
+      for (int u = std::max(0, x - reach); u <= std::min(width - 1, x + reach); ++u)
+        w.add(double{p.mean[index(u, v)]}, double{p.variance[index(u, v)]});
+    reliable = w.variance <= kReliable * square(w.mean);
   }
-  return weights;
+  if (!reliable) return {w.mean / w.n, 1 / w.n};
+  const double n = w.n - 1;
+  if (n < 2) return {own, 1};
+  const double average = (w.mean - own) / n;
+  const double spread = (w.square - own * own - n * average * average) / (n - 1);
+  const double signal = std::max(0.0, spread - (w.variance - own_variance) / n);
+  const double weight = signal / (signal + own_variance);
+  return {average + weight * (own - average), weight};
 }
 
-// ---- numerators ----------------------------------------------------------------------------------
+// ---- the mean over pixels ------------------------------------------------------------------------
 
-/// The variance of the mean of R replicates, weighted and summed over pixels and channels: from all
-/// replicates, and what it would be if one had not been there.
-struct WeightedVariance {
-  double all = 0;
+/// The relative variance of one replicate, summed over pixels and channels: from all replicates, and from
+/// all but one; and with the pixels' own means below.
+struct RelativeVariance {
+  double all = 0, plain = 0;
   std::vector<double> without;  // [R]
 };
 
-void add_pixel(WeightedVariance &sum, const float *means, int count, int c, double weight) {
+void add_pixel(RelativeVariance &sum, const float *means, int count, int c, const Shrunk &pixel,
+               double eps) {
   const Moments m = moments_of(means, count, c);
   const double n = count;
   if (m.squares == 0) return;
-  sum.all += weight * m.squares / (n * (n - 1));
-  for (int r = 0; r < count; ++r) {
+  sum.all += m.squares / (n - 1) / (square(pixel.mean) + eps);
+  sum.plain += m.squares / (n - 1) / (square(m.mean) + eps);
+  for (int r = 0; r < count && count > 2; ++r) {
     const double off = double{means[3 * r + c]} - m.mean;
-    sum.without[static_cast<std::size_t>(r)] +=
-        weight * (m.squares - n / (n - 1) * square(off)) / (n * (n - 2));
+    const double squares = std::max(0.0, m.squares - n / (n - 1) * square(off));
+    const double mean = pixel.mean - pixel.weight * off / (n - 1);
+    sum.without[static_cast<std::size_t>(r)] += squares / (n - 2) / (square(mean) + eps);
   }
 }
 
 /// Rows are summed apart and then in their order: the same for any number of threads.
-WeightedVariance weighted_variance(const Replicates &replicates, double eps, int threads) {
+RelativeVariance relative_variance(const Replicates &replicates, double eps, int threads) {
   const Planes planes = planes_of(replicates, threads);
   const int count = replicates.count();
   const int width = replicates.crop().width, height = replicates.crop().height;
-  const WeightedVariance zero{0, std::vector<double>(static_cast<std::size_t>(count))};
-  std::vector<WeightedVariance> rows(static_cast<std::size_t>(height), zero);
+  const RelativeVariance zero{0, 0, std::vector<double>(static_cast<std::size_t>(count))};
+  std::vector<RelativeVariance> rows(static_cast<std::size_t>(height), zero);
   parallel_for(height, threads, [&](std::int64_t y, int) {
-    for (int c = 0; c < 3; ++c) {
-      const std::vector<double> weights =
-          row_weights(planes, width, height, static_cast<int>(y), c, eps);
-      for (int x = 0; x < width; ++x)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c)
         add_pixel(rows[static_cast<std::size_t>(y)], replicates.means(y * width + x), count, c,
-                  weights[static_cast<std::size_t>(x)]);
-    }
+                  shrunk(planes, width, height, x, static_cast<int>(y), c), eps);
   });
-  WeightedVariance sum = zero;
-  for (const WeightedVariance &row : rows) {
+  RelativeVariance sum = zero;
+  for (const RelativeVariance &row : rows) {
     sum.all += row.all;
+    sum.plain += row.plain;
     for (std::size_t r = 0; r < row.without.size(); ++r) sum.without[r] += row.without[r];
   }
   const double scale = 1 / (3.0 * static_cast<double>(replicates.num_pixels()));
   sum.all *= scale;
+  sum.plain *= scale;
   for (double &w : sum.without) w *= scale;
   return sum;
 }
@@ -180,14 +189,20 @@ ErrorEstimate estimate_error(const Replicates &replicates, int threads) {
   e.image_mean = mean_of(means);
   e.image_mean_half_width = half_width(means);
 
-  const WeightedVariance v = weighted_variance(replicates, square(0.01 * e.image_mean), threads);
-  e.relmse = v.all;
+  const RelativeVariance v =
+      relative_variance(replicates, square(0.01 * e.image_mean), threads);
+  e.relmse = v.all / n;
   if (n < 3) return e;  // the jackknife needs a variance of two
   const double mean_without = mean_of(v.without);
   double squares = 0;
   for (const double w : v.without) squares += square(w - mean_without);
   const double standard_error = std::sqrt((n - 1) / n * squares);
-  const double spread = quotient(student_t_quantile(0.05, n - 1) * standard_error, v.all);
+  // The correction is of the order 1 / n; beyond a factor of two it would be noise.
+  const double variance = std::clamp(n * v.all - (n - 1) * mean_without, 0.5 * v.all, 2 * v.all);
+  e.relmse = variance / n;
+  const double statistical = quotient(student_t_quantile(0.05, n - 1) * standard_error, variance);
+  const double systematic = variance > 0 ? 0.5 * std::log(variance / v.plain) : 0;
+  const double spread = std::hypot(statistical, systematic);
   e.lo95 = e.relmse * std::exp(-spread);
   e.hi95 = e.relmse * std::exp(spread);
   return e;
