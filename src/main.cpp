@@ -58,6 +58,7 @@ int run(int argc, char **argv) {
   add_compare_command(app, exit_code);
   add_check_command(app, exit_code);
   add_replay_command(app, exit_code);
+  add_converge_command(app, exit_code);
   if (argc > 1) check_command(app, argv[1]);
   try {
     app.parse(argc, argv);

@@ -14,5 +14,6 @@ void add_diff_command(CLI::App &app, int &exit_code);
 void add_compare_command(CLI::App &app, int &exit_code);
 void add_check_command(CLI::App &app, int &exit_code);
 void add_replay_command(CLI::App &app, int &exit_code);
+void add_converge_command(CLI::App &app, int &exit_code);
 
 }  // namespace phalanx

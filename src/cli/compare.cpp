@@ -4,20 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <memory>
 
 #include "../core/error.h"
 #include "../core/timer.h"
 #include "../output/files.h"
-#include "../render/render.h"
-#include "../scene/build.h"
-#include "../scene/scene_file.h"
 #include "../wavefront/isa.h"
 #include "commands.h"
+#include "lists.h"
 #include "outputs.h"
-#include "text.h"
+#include "subject.h"
 
 namespace phalanx {
 namespace {
@@ -36,36 +33,12 @@ struct CompareCommand {
 
 // ---- measuring ---------------------------------------------------------------------------------
 
-/// A scene ready to be rendered again and again.
-struct Subject {
-  Subject(const std::string &path, const RenderOptions &options) : options(options) {
-    Diagnostics diagnostics;
-    description = load_scene_file(path, diagnostics);
-    diagnostics.throw_if_errors();
-    scene = build_scene(description, diagnostics);
-    print_problems(diagnostics.warnings(), "warning: ");
-    diagnostics.throw_if_errors();
-    make_plan(description, scene, options);  // a bad frame is an error before the long part
-    accel = std::make_unique<Accel>(scene, options.isa, 0);
-  }
-
-  Plan plan_for(Mode mode, int threads) const {
-    RenderOptions own = options;
-    own.mode = mode;
-    own.threads = threads;
-    return make_plan(description, scene, own);
-  }
-  RenderResult render(Mode mode, int threads) const {
-    RenderOptions own = options;
-    own.mode = mode;
-    return phalanx::render(scene, *accel, plan_for(mode, threads), own);
-  }
-
-  RenderOptions options;
-  SceneDescription description;
-  Scene scene;
-  std::unique_ptr<Accel> accel;
-};
+RenderOptions options_for(const CompareCommand &command, Mode mode, int threads) {
+  RenderOptions options = command.options;
+  options.mode = mode;
+  options.threads = threads;
+  return options;
+}
 
 void check_against(const Film &reference, const Film &film, ScheduleRuns &schedule) {
   const FilmDifferences differences = film_differences(film, reference);
@@ -75,7 +48,7 @@ void check_against(const Film &reference, const Film &film, ScheduleRuns &schedu
 
 SceneComparison prepare(const CompareCommand &command, const std::string &path,
                         const Subject &subject) {
-  const Plan plan = subject.plan_for(Mode::kWavefront, command.threads.front());
+  const Plan plan = subject.plan(options_for(command, Mode::kWavefront, command.threads.front()));
   SceneComparison c;
   c.scene = path;
   c.isa = command.options.isa;
@@ -88,7 +61,7 @@ SceneComparison prepare(const CompareCommand &command, const std::string &path,
   for (const Mode mode : command.modes) c.schedules.push_back({mode, plan.threads, {}, {}});
   for (std::size_t i = 1; i < command.threads.size(); i++)
     c.scaling.push_back(
-        {Mode::kWavefront, subject.plan_for(Mode::kWavefront, command.threads[i]).threads, {}, {}});
+        {Mode::kWavefront, subject.plan(options_for(command, Mode::kWavefront, command.threads[i])).threads, {}, {}});
   return c;
 }
 
@@ -99,7 +72,7 @@ SceneComparison compare_scene(const CompareCommand &command, const std::string &
   SceneComparison c = prepare(command, path, subject);
   c.setup_s = wall_seconds() - start;
 
-  const Film reference = subject.render(Mode::kDepthFirst, c.schedules.front().threads).film;
+  const Film reference = subject.render(options_for(command, Mode::kDepthFirst, c.schedules.front().threads)).film;
   std::vector<ScheduleRuns *> turn;
   for (ScheduleRuns &schedule : c.schedules) turn.push_back(&schedule);
   for (ScheduleRuns &schedule : c.scaling) turn.push_back(&schedule);
@@ -107,7 +80,7 @@ SceneComparison compare_scene(const CompareCommand &command, const std::string &
     for (ScheduleRuns *schedule : turn) {
       const bool warm_up = round == 0;
       if (warm_up && schedule->mode == Mode::kDepthFirst) continue;  // the reference was that
-      RenderResult result = subject.render(schedule->mode, schedule->threads);
+      RenderResult result = subject.render(options_for(command, schedule->mode, schedule->threads));
       check_against(reference, result.film, *schedule);
       if (!warm_up) schedule->runs.push_back(std::move(result.stats));
     }
@@ -146,41 +119,8 @@ int run_compare(CompareCommand command) {
 
 // ---- its options -------------------------------------------------------------------------------
 
-std::vector<std::string> words(const std::string &text, char separator) {
-  std::vector<std::string> result(1);
-  for (const char c : text)
-    if (c == separator)
-      result.emplace_back();
-    else
-      result.back() += c;
-  return result;
-}
-
-/// Whole numbers of at least `lo`; none if `text` is anything else.
-std::vector<int> ints(const std::string &text, char separator, int lo) {
-  std::vector<int> values;
-  for (const std::string &word : words(text, separator)) {
-    int value = 0;
-    const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (result.ec != std::errc() || result.ptr != word.data() + word.size() || value < lo)
-      return {};
-    values.push_back(value);
-  }
-  return values;
-}
-
-[[noreturn]] void bad_value(const char *option, const char *expected, const std::string &found) {
-  throw InputError(fmt::format("{}: expected {}, found \"{}\"", option, expected, found));
-}
-
 void read_modes(const std::string &text, CompareCommand &command) {
-  command.modes.clear();
-  for (const std::string &word : words(text, ',')) {
-    const auto mode = mode_from_name(word);
-    if (!mode)
-      bad_value("--modes", "a list of wavefront, megakernel, depth-first, recursive", text);
-    command.modes.push_back(*mode);
-  }
+  command.modes = modes_from_list(text);
 }
 
 void read_threads(const std::string &text, CompareCommand &command) {
@@ -188,13 +128,6 @@ void read_threads(const std::string &text, CompareCommand &command) {
   for (const int n : command.threads)
     if (n > 65536) command.threads.clear();
   if (command.threads.empty()) bad_value("--threads", "a list of numbers, such as 1,2,4", text);
-}
-
-void read_size(const std::string &text, CompareCommand &command) {
-  const std::vector<int> size = ints(text, 'x', 1);
-  if (size.size() != 2) bad_value("--size", "WIDTHxHEIGHT in pixels, such as 640x480", text);
-  command.options.width = size[0];
-  command.options.height = size[1];
 }
 
 /// Given twice, the last one counts: script/bench puts its defaults first.
@@ -215,7 +148,8 @@ void add_options(CLI::App &sub, CompareCommand &command) {
        "Schedules, in their turn; default: wavefront,megakernel,depth-first,recursive");
   number("--runs", command.num_runs, 1, 10000, "Timed runs of each schedule; default 5");
   number("--spp", options.spp, 1, 1 << 24, "Samples per pixel; default 16");
-  text("--size", "WxH", read_size, "Size of the picture in pixels; default: the scene's");
+  text("--size", "WxH",
+       [](const std::string &value, CompareCommand &c) { read_size(value, c.options); }, "Size of the picture in pixels; default: the scene's");
   number("--max-depth", options.max_depth, 0, 1 << 24,
          "Scattering events after the camera; default: the scene's");
   text(

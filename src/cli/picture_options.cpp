@@ -8,10 +8,12 @@
 #include <climits>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "../core/error.h"
+#include "../scene/sampler_names.h"
 #include "../wavefront/isa.h"
 
 namespace phalanx {
@@ -77,6 +79,18 @@ CLI::Option *add_text(CLI::App &command, const std::string &name, const std::str
       ->type_name(type);
 }
 
+bool positive(const std::string &text, double &value) {
+  return CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+}
+
+std::string sampler_list() {
+  std::string list;
+  for (std::size_t i = 0; i < kSamplerNames.size(); ++i)
+    list += fmt::format("{}{}", i == 0 ? "" : i + 1 == kSamplerNames.size() ? " or " : ", ",
+                        kSamplerNames[i].first);
+  return list;
+}
+
 std::string isa_list() { return fmt::format("{}", fmt::join(known_isas(), ", ")); }
 
 void add_frame_options(CLI::App &command, RenderOptions &options) {
@@ -104,13 +118,53 @@ void add_sampling_options(CLI::App &command, RenderOptions &options) {
           [&options](int n) { options.spp = n; });
   add_text(command, "--time", "SECONDS", "a number of seconds above 0",
            "Render whole passes until this time is used up, at least one",
+           [&options](const std::string &text) { return positive(text, options.time_limit_s); });
+  add_text(command, "--target-error", "RELMSE", "a relMSE above 0, such as 1e-3",
+           "Render until the error is known to be at most this. Of --spp, --time and --target-error, the first "
+           "that is reached ends the rendering; without --spp, the others alone",
+           [&options](const std::string &text) { return positive(text, options.target_error); });
+  add_text(command, "--sampler", "NAME", sampler_list(), "Sampler: " + sampler_list(),
            [&options](const std::string &text) {
-             return CLI::detail::lexical_cast(text, options.time_limit_s) &&
-                    std::isfinite(options.time_limit_s) && options.time_limit_s > 0;
-           })
-      ->excludes("--spp");
+             for (const auto &[name, kind] : kSamplerNames)
+               if (text == name) options.sampler = kind;
+             return options.sampler.has_value() && text == sampler_name(*options.sampler);
+           });
+  command.add_flag("--adaptive", options.adaptive,
+                   "More samples for tiles where a pilot, which is thrown away, found more noise");
   add_int(command, "--seed", 0, INT_MAX, "Seed of the sampler",
           [&options](int n) { options.seed = n; });
+}
+
+/// --error and --replicates. What they mean together, and with --target-error, is known when all options
+/// have been read.
+void add_error_options(CLI::App &command, RenderOptions &options) {
+  struct Wishes {
+    std::optional<bool> error;
+    std::optional<int> replicates;
+  };
+  const auto wishes = std::make_shared<Wishes>();
+  add_text(command, "--error", "on|off", "on or off",
+           "Split the samples over independent replicates, which tell the error while rendering; default: on with "
+           "--target-error, otherwise off",
+           [wishes](const std::string &text) {
+             wishes->error = text == "on";
+             return text == "on" || text == "off";
+           });
+  add_text(command, "--replicates", "N", "a power of two from 2 to 64",
+           fmt::format("How many of them; default {}", kDefaultReplicates),
+           [wishes](const std::string &text) {
+             wishes->replicates = int_from_text(text);
+             const int n = wishes->replicates.value_or(0);
+             return n >= 2 && n <= 64 && (n & (n - 1)) == 0;
+           });
+  command.parse_complete_callback([wishes, &options] {
+    const bool target = options.target_error > 0;
+    if (wishes->error == false && (target || wishes->replicates))
+      throw InputError(fmt::format("--error off: {} needs --error on",
+                                   target ? "--target-error" : "--replicates"));
+    if (wishes->error.value_or(target || wishes->replicates))
+      options.replicates = wishes->replicates.value_or(kDefaultReplicates);
+  });
 }
 
 void add_schedule_options(CLI::App &command, RenderOptions &options) {
@@ -141,6 +195,7 @@ void add_schedule_options(CLI::App &command, RenderOptions &options) {
 void add_picture_options(CLI::App &command, std::string &scene, RenderOptions &options) {
   command.add_option("SCENE", scene, "Scene file")->required();
   add_sampling_options(command, options);
+  add_error_options(command, options);
   add_frame_options(command, options);
   add_schedule_options(command, options);
 }

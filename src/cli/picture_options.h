@@ -8,8 +8,9 @@
 
 namespace phalanx {
 
-/// Adds SCENE and --mode, --spp, --time, --size, --crop, --max-depth, --seed, --threads, --isa,
-/// --wave-size, --tile-size. `scene` and `options` must outlive the parsing. Bad values throw
+/// Adds SCENE and --mode, --spp, --time, --target-error, --error, --replicates, --adaptive, --sampler, --size,
+/// --crop, --max-depth, --seed, --threads, --isa, --wave-size, --tile-size. Takes the command's
+/// parse_complete_callback. `scene` and `options` must outlive the parsing. Bad values throw
 /// InputError while parsing. `options.isa` is resolved later, by resolve_isa().
 void add_picture_options(CLI::App &command, std::string &scene, RenderOptions &options);
 

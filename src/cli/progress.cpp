@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "../report/line_fit.h"
 #include "../report/report.h"
 #include "text.h"
 
@@ -57,13 +58,47 @@ std::string progress_line(const Progress &progress, double relmse) {
   return line;
 }
 
-std::string summary_line(const RunStats &stats, const ErrorEstimate &error) {
+std::string error_line(const Progress &progress) {
+  const std::vector<ErrorCheck> &checks = *progress.checks;
+  const ErrorCheck &last = checks.back();
+  std::string line = fmt::format("pass {} | {} | relMSE {}", last.spp, seconds(last.wall_s),
+                                 text_of_error(last.relmse));
+  if (!std::isnan(last.lo95))
+    line += fmt::format(" [{}, {}]", text_of_error(last.lo95), text_of_error(last.hi95));
+  const double slope = error_slope(checks);
+  if (!std::isnan(slope)) line += fmt::format(" | slope {:.2f}", slope);
+  if (progress.target_error > 0) {
+    const double eta = seconds_to(checks, slope, progress.target_error);
+    line += fmt::format(" | ETA to {}: {}", text_of_target(progress.target_error),
+                        std::isnan(eta) ? "?" : seconds(eta));
+  }
+  return line + fmt::format(" | invalid {}", progress.invalid);
+}
+
+std::string summary_line(const RunStats &stats, const ErrorEstimate &error, double target) {
   std::string line = fmt::format("{} spp in {} ({} set-up) | {:.1f} Mray/s", stats.spp,
                                  seconds(stats.wall_s), seconds(stats.setup_s), mrays_per_s(stats));
   if (!std::isnan(error.relmse)) line += " | relMSE " + text_of_error(error.relmse);
   if (!std::isnan(error.lo95))
     line += fmt::format(" [{}, {}]", text_of_error(error.lo95), text_of_error(error.hi95));
+  if (!stats.stopped_by.empty() && stats.stopped_by != "spp")
+    line += " | stopped by " + stats.stopped_by;
+  if (target > 0)
+    line += fmt::format(" | target {} {}met", text_of_target(target), error.hi95 <= target ? "" : "not ");
   return line;
+}
+
+std::string ProgressDisplay::line_for(const Progress &progress, const Film &film) {
+  const bool has_checks = progress.checks != nullptr && !progress.checks->empty();
+  if (has_checks) {  // a line for every check; on a terminal the last one stays
+    const bool is_new = progress.checks->size() > num_checks_;
+    num_checks_ = progress.checks->size();
+    return is_new ? error_line(progress) : "";
+  }
+  const bool due = progress.elapsed_s - last_line_s_ >= kLogInterval;
+  if (style_ == ProgressStyle::kLog && !due) return "";
+  refresh_estimate(progress, film);
+  return progress_line(progress, relmse_);
 }
 
 void ProgressDisplay::refresh_estimate(const Progress &progress, const Film &film) {
@@ -76,10 +111,8 @@ void ProgressDisplay::refresh_estimate(const Progress &progress, const Film &fil
 
 void ProgressDisplay::update(const Progress &progress, const Film &film) {
   if (style_ == ProgressStyle::kNone) return;
-  const bool due = progress.elapsed_s - last_line_s_ >= kLogInterval;
-  if (style_ == ProgressStyle::kLog && !due) return;
-  refresh_estimate(progress, film);
-  const std::string line = progress_line(progress, relmse_);
+  const std::string line = line_for(progress, film);
+  if (line.empty()) return;
   if (style_ == ProgressStyle::kTerminal)
     fmt::print(stderr, "\r{}\033[K", line.substr(0, terminal_columns()));
   else
@@ -88,10 +121,10 @@ void ProgressDisplay::update(const Progress &progress, const Film &film) {
   last_line_s_ = progress.elapsed_s;
 }
 
-void ProgressDisplay::finish(const RunStats &stats, const ErrorEstimate &error) {
+void ProgressDisplay::finish(const RunStats &stats, const ErrorEstimate &error, double target) {
   if (style_ == ProgressStyle::kNone) return;
   if (style_ == ProgressStyle::kTerminal) fmt::print(stderr, "\r\033[K");
-  fmt::print(stderr, "{}\n", summary_line(stats, error));
+  fmt::print(stderr, "{}\n", summary_line(stats, error, target));
 }
 
 }  // namespace phalanx

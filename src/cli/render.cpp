@@ -47,10 +47,21 @@ void check_memory(const MemoryPlan &memory) {
     throw MemoryError(
         fmt::format("this needs {} of memory (scene {}, film {}, ray queries {}, waves {}); the "
                     "machine has {}. "
-                    "Try a smaller --size or a --crop",
+                    "Try a smaller --size or a --crop{}",
                     text_of_bytes(memory.total()), text_of_bytes(memory.scene),
                     text_of_bytes(memory.film), text_of_bytes(memory.accel_estimate),
-                    text_of_bytes(memory.waves), text_of_bytes(installed)));
+                    text_of_bytes(memory.waves), text_of_bytes(installed),
+                    memory.replicates > 0 ? fmt::format(", or leave out the error estimate ({})",
+                                                        text_of_bytes(memory.replicates))
+                                          : ""));
+}
+
+/// Replicates have the same number of samples each, and so have quarters of them with --adaptive.
+void say_if_rounded(const Plan &plan, int wanted, bool quiet) {
+  if (quiet || plan.spp == wanted || plan.spp >= kNoSampleLimit) return;
+  fmt::print(stderr, "phalanx: {} samples per pixel instead of {}: {}{}\n", plan.spp, wanted,
+             plan.replicates > 0 ? fmt::format("a multiple of {} replicates", plan.replicates) : "",
+             plan.adaptive ? plan.replicates > 0 ? ", each a multiple of 4" : "a multiple of 4" : "");
 }
 
 void warn_of_invalid_samples(const Report &report) {
@@ -99,6 +110,13 @@ void set_up(const RenderCommand &command, Ranks &ranks, bool by_leases, Workplac
   work.loaded = load_on_all(ranks, command.lease.shared_files, [&] { return load(command.scene); });
   agree(ranks, [&] {
     work.plan = make_plan(work.loaded.description, work.loaded.scene, options);
+    if (by_leases && (work.plan.replicates > 0 || work.plan.adaptive))
+      throw InputError(
+          "an estimate of the error and adaptive sampling are for one process without checkpoint, "
+          "balance or map: leave out --error, --target-error and --adaptive");
+    if (ranks.rank() == 0)
+      say_if_rounded(work.plan, options.spp > 0 ? options.spp : work.loaded.description.sampler.spp,
+                     command.quiet);
     check_memory(plan_memory(work.plan, work.loaded.scene));
     work.accel.emplace(work.loaded.scene, options.isa, work.plan.threads);
   });
@@ -141,10 +159,13 @@ int run_rank(const RenderCommand &command, Ranks &ranks) {
   const double setup_s = wall_seconds() - start;
   const double exposure = command.exposure.value_or(work.loaded.description.film.exposure);
   const bool stratified = plan.frame.sampler == kSobolSampler;
-  const auto report_of = [&](const Film &film, RunStats stats) {
+  const auto report_of = [&](const Film &film, RunStats stats,
+                             const std::optional<ErrorEstimate> &error = {},
+                             std::vector<TileError> tiles = {}) {
     stats.setup_s = setup_s;
-    return Report{command.scene, plan,         std::move(stats), estimate_error(film, stratified),
-                  std::nullopt,  peak_rss_bytes()};
+    return Report{command.scene, plan, std::move(stats),
+                  error ? *error : estimate_error(film, stratified),
+                  std::nullopt, peak_rss_bytes(), std::move(tiles)};
   };
   const auto image_of = [&](const Film &film, const Report &report) {
     Image image = image_from_film(film, plan.frame.width, plan.frame.height, layers);
@@ -173,6 +194,8 @@ int run_rank(const RenderCommand &command, Ranks &ranks) {
     return stop_signal() == 0;
   };
   LeaseResult result{Film({}, false), {}, {}, ""};
+  std::optional<ErrorEstimate> error;
+  std::vector<TileError> tiles;
   if (by_leases) {
     const LeaseOptions lease{command.lease.balance.value_or(Balance::kDynamic),
                              command.lease.checkpoint,
@@ -189,10 +212,12 @@ int run_rank(const RenderCommand &command, Ranks &ranks) {
     RenderResult whole = render(scene, *work.accel, plan, work.options, progress);
     result.film = std::move(whole.film);
     result.stats = std::move(whole.stats);
+    error = whole.error;
+    if (whole.replicates) tiles = tile_errors(*whole.replicates);
   }
 
-  const Report report = report_of(result.film, std::move(result.stats));
-  display.finish(report.stats, report.error);
+  const Report report = report_of(result.film, std::move(result.stats), error, std::move(tiles));
+  display.finish(report.stats, report.error, plan.target_error);
   warn_of_invalid_samples(report);
   const bool has_lost = std::any_of(report.stats.per_rank.begin(), report.stats.per_rank.end(),
                                     [](const RankStats &r) { return r.lost; });
@@ -223,6 +248,7 @@ const char kExamples[] =
     "Examples:\n"
     "  phalanx render scenes/cornell-box.json -o box.png\n"
     "  phalanx render scenes/cornell-box.json --time 30 -o box.exr --report box-report.json\n"
+    "  phalanx render scenes/cornell-box.json --target-error 1e-3 --time 600 -o box.exr\n"
     "  phalanx render scenes/cornell-box.json --size 320x240 --crop 100,50,64,64 --spp 256\n"
     "  phalanx render scenes/cornell-box.json -o box.exr --aov albedo,normal,variance,samples\n"
     "  phalanx render scenes/cornell-box.json -o box.png --checkpoint box.ckpt --resume\n"

@@ -26,6 +26,15 @@ std::string text_of_error(double error) {
   return text;
 }
 
+std::string text_of_target(double error) {
+  std::string text = fmt::format("{:e}", error);
+  std::size_t e = text.find('e');
+  while (text[e - 1] == '0') text.erase(--e, 1);
+  if (text[e - 1] == '.') text.erase(--e, 1);
+  if (text.size() == e + 4 && text[e + 2] == '0') text.erase(e + 2, 1);
+  return text;
+}
+
 void print_problems(const std::vector<Problem> &problems, const std::string &prefix) {
   for (const Problem &problem : problems)
     fmt::print(stderr, "phalanx: {}{}\n", prefix, problem.text());

@@ -13,6 +13,9 @@ std::string text_of_bytes(std::int64_t bytes);
 /// "3.1e-3"; "?" for NaN.
 std::string text_of_error(double error);
 
+/// "1e-3", "2.5e-4": with as many digits as it takes.
+std::string text_of_target(double error);
+
 /// One line a problem on stderr: `phalanx: PREFIXfile:line:column: ...`.
 void print_problems(const std::vector<Problem> &problems, const std::string &prefix = "");
 

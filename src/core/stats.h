@@ -49,6 +49,13 @@ struct RankStats {
 /// Largest busy_s over their mean; 1 where nothing was rendered. Ranks that were lost do not count.
 double imbalance(const std::vector<RankStats> &ranks);
 
+/// What was known of the error after some passes. relMSE with its 95 % interval.
+struct ErrorCheck {
+  int spp = 0;
+  double wall_s = 0;           // since rendering started
+  double relmse = 0, lo95 = 0, hi95 = 0;
+};
+
 struct RunStats {
   std::string mode, isa;
   int threads = 1, ranks = 1;
@@ -57,7 +64,7 @@ struct RunStats {
   int resumed_spp = 0;         // samples of each pixel that came from a checkpoint
   std::vector<std::string> warnings;
   int spp = 0;                 // done, for every pixel
-  std::string stopped_by;      // "spp", "time" or "signal"
+  std::string stopped_by;      // "spp", "time", "target" or "signal"
   double setup_s = 0;          // reading, building, Embree commit
   double wall_s = 0, cpu_s = 0;  // rendering alone
   RayCounts rays;
@@ -65,6 +72,11 @@ struct RunStats {
   InvalidSamples invalid;
   double clamp = 0;             // limit that samples were cut to; 0: none
   double clamped_share = 0;     // of the light of the picture, taken off by it, in [0, 1]
+  std::vector<ErrorCheck> checks;  // with replicates: see is_error_check, and at the end
+  double check_s = 0;              // spent on them, part of wall_s
+  double samples_per_pixel = 0;    // mean over pixels: spp, unless sampling is adaptive
+  double pilot_s = 0;              // adaptive: part of wall_s
+  int pilot_spp = 0;               // adaptive: samples that only chose where others go
   std::int64_t wave_bytes_per_thread = 0;  // everything a thread allocates beyond scene and film
 };
 

@@ -342,10 +342,12 @@ void Coordinator::do_chores(LeaseBook &book) {
     // Signals are looked for at every call; the line is drawn less often.
     Progress p;
     p.spp_done = book.fewest_samples();
-    p.spp_total = plan_.spp;
+    p.spp_total = plan_.spp < kNoSampleLimit ? plan_.spp : 0;
     p.fraction = book.samples_done() /
                  (static_cast<double>(film_.num_pixels()) * std::max(1, plan_.spp));
     p.elapsed_s = now - start_;
+    if (plan_.time_limit_s > 0)
+      p.fraction = std::min(1.0, std::max(p.fraction, p.elapsed_s / plan_.time_limit_s));
     p.rays = tally_.rays.total();
     p.between_passes = now - last_progress_ > kProgressSeconds;
     if (p.between_passes) last_progress_ = now;
@@ -423,8 +425,9 @@ RunStats Coordinator::stats_so_far(const std::vector<BookTile> &tiles) const {
   stats.threads = plan_.threads;
   stats.ranks = ranks_.size();
   stats.balance = balance_name(lease_options_.balance);
-  stats.spp = plan_.spp;
+  stats.spp = plan_.spp;  // at most
   for (const BookTile &tile : tiles) stats.spp = std::min(stats.spp, tile.samples);
+  stats.samples_per_pixel = stats.spp;
   stats.resumed_spp = resumed_spp_;
   stats.wall_s = wall_seconds() - start_;
   stats.rays = tally_.rays;

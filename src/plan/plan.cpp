@@ -7,6 +7,7 @@
 
 #include "../../kernels/physics/sampler_blue_noise.h"
 #include "../core/parallel.h"
+#include "../film/replicates.h"
 #include "../scene/build.h"
 #include "../scene/build_lights.h"
 #include "../scene/build_materials.h"
@@ -19,6 +20,9 @@ namespace {
 constexpr int kDefaultWaveSize = 2048;
 constexpr int kDefaultTileSize = 32;
 constexpr int kSamplesPerPass = 16;   // a power of two
+constexpr int kFirstReplicatedSamples = 64;
+constexpr int kAdaptiveSamples = 4;   // a tile may have a quarter of the others' samples
+constexpr int kAdaptiveTileSize = 16;
 constexpr int kMaxSide = 65535;       // pixel coordinates travel as 16 bits each
 
 /// Upper estimate of the bytes that Embree keeps for a primitive; 65 (terrain) to 87 (spheres) were
@@ -37,6 +41,31 @@ constexpr KindFacts kKinds[] = {
 
 int pick(int wanted, int otherwise) { return wanted > 0 ? wanted : otherwise; }
 
+/// The next multiple of `unit`, at most kNoSampleLimit.
+int round_up(int n, int unit) { return (std::min(n, kNoSampleLimit) + unit - 1) / unit * unit; }
+
+/// How many samples, and how they are split. Without --spp, the scene's number is a limit only if there is
+/// no other.
+void set_budget(Plan &plan, const SceneDescription &d, const RenderOptions &o) {
+  plan.time_limit_s = o.time_limit_s;
+  plan.target_error = o.target_error;
+  plan.adaptive = o.adaptive;
+  plan.replicates = o.replicates;
+  const bool other_limit = o.time_limit_s > 0 || o.target_error > 0;
+  plan.spp = o.spp > 0 ? o.spp : other_limit ? kNoSampleLimit : d.sampler.spp;
+  plan.frame.spp = pick(o.spp, d.sampler.spp);
+  if (o.target_error > 0 && o.replicates == 0)
+    throw InputError("a target for the error needs replicates to estimate it: --error on");
+  if (o.adaptive) plan.spp = round_up(plan.spp, kAdaptiveSamples);
+  if (o.replicates == 0) return;
+  if (o.replicates < 2 || o.replicates > kFirstReplicatedSamples ||
+      !std::has_single_bit(static_cast<unsigned>(o.replicates)))
+    throw InputError(fmt::format("{} replicates: a power of two from 2 to {} is needed", o.replicates,
+                                 kFirstReplicatedSamples));
+  plan.spp = round_up(plan.spp, o.replicates * (o.adaptive ? kAdaptiveSamples : 1));
+  plan.frame.spp = round_up(plan.frame.spp, o.replicates) / o.replicates;
+}
+
 void set_picture(Plan &plan, const SceneDescription &d, const RenderOptions &o) {
   FrameView &f = plan.frame;
   f.width = pick(o.width, d.film.width);
@@ -53,13 +82,11 @@ void set_picture(Plan &plan, const SceneDescription &d, const RenderOptions &o) 
       c.y > f.height - c.height)
     throw InputError(fmt::format("crop window {},{},{},{} does not lie within the picture of {} x {}",
                                  c.x, c.y, c.width, c.height, f.width, f.height));
-  plan.spp = pick(o.spp, d.sampler.spp);
-  plan.time_limit_s = o.time_limit_s;
+  set_budget(plan, d, o);
   plan.clamp = static_cast<float>(o.clamp);
   plan.filter_offsets = filter_offsets(d.film);
   f.filter_offsets = plan.filter_offsets.data();
-  f.sampler = d.sampler.kind;
-  f.spp = plan.spp;
+  f.sampler = o.sampler.value_or(d.sampler.kind);
   if (f.sampler == kBlueNoiseSampler && blue_noise_bits(f.width, f.height, f.spp) > 32)
     throw InputError(fmt::format(
         "sampler blue_noise: {} x {} pixels with {} samples each need more than the 2^32 numbers there "
@@ -182,6 +209,10 @@ void list_left_out(Plan &plan, const Scene &scene) {
   for (int kind = 0; kind < kNumBasicKinds; ++kind)
     if (!plan.material_kinds[kind])
       plan.left_out.push_back({fmt::format("shade_{}", kKinds[kind].name), "no such material", 0});
+  if (plan.replicates == 0)
+    plan.left_out.push_back(
+        {"replicates for the error", fmt::format("not asked for (saves {} bytes a pixel)",
+                                                 Replicates::bytes_per_pixel(kDefaultReplicates)), 0});
   if (plan.frame.camera.lens_radius == 0)
     plan.left_out.push_back({"lens samples", "the camera has no lens", 0});
 }
@@ -210,7 +241,7 @@ Plan make_plan(const SceneDescription &description, const Scene &scene,
                                  kMaxRecursiveDepth, plan.frame.max_depth));
   plan.aovs = options.aovs;
   plan.wave_size = pick(options.wave_size, kDefaultWaveSize);
-  plan.tile_size = pick(options.tile_size, kDefaultTileSize);
+  plan.tile_size = pick(options.tile_size, plan.adaptive ? kAdaptiveTileSize : kDefaultTileSize);
   if (!std::has_single_bit(static_cast<unsigned>(plan.tile_size)) || plan.tile_size > 256)
     throw InputError(fmt::format("tile size {}: a power of two up to 256 is needed", plan.tile_size));
   if (plan.wave_size < 16 || plan.wave_size > (1 << 20))
@@ -229,13 +260,33 @@ MemoryPlan plan_memory(const Plan &plan, const Scene &scene) {
   m.scene = scene.bytes();
   m.film = std::int64_t{plan.crop.width} * plan.crop.height * Film::bytes_per_pixel(plan.aovs);
   m.waves = plan.wave_bytes() * plan.threads;
+  const std::int64_t pixels = std::int64_t{plan.crop.width} * plan.crop.height;
+  m.replicates = pixels * Replicates::bytes_per_pixel(plan.replicates);
+  if (plan.adaptive) {
+    m.pilot = pixels * (Film::bytes_per_pixel(plan.aovs) +
+                        Replicates::bytes_per_pixel(kPilotReplicates)) + m.waves;
+  }
   for (std::int32_t n : scene.num_prims) m.accel_estimate += n * kAccelBytesPerPrimitive;
   return m;
 }
 
+namespace {
+
+std::string budget_text(const Plan &plan) {
+  std::vector<std::string> limits;
+  if (plan.spp < kNoSampleLimit) limits.push_back(fmt::format("{} samples per pixel", plan.spp));
+  if (plan.time_limit_s > 0) limits.push_back(fmt::format("{} s", plan.time_limit_s));
+  if (plan.target_error > 0) limits.push_back(fmt::format("relMSE {}", plan.target_error));
+  std::string text = fmt::format("{}", fmt::join(limits, " or "));
+  if (plan.replicates > 0) text += fmt::format(" in {} replicates", plan.replicates);
+  return text;
+}
+
+}  // namespace
+
 std::string plan_text(const Plan &plan, const MemoryPlan &memory) {
-  std::string text = fmt::format("picture   {} x {}, {} samples per pixel, depth {}\n",
-                                 plan.crop.width, plan.crop.height, plan.spp, plan.frame.max_depth);
+  std::string text = fmt::format("picture   {} x {}, {}, depth {}\n", plan.crop.width,
+                                 plan.crop.height, budget_text(plan), plan.frame.max_depth);
   text += "kernels   ";
   for (size_t i = 0; i < plan.kernels.size(); ++i)
     text += (i == 0 ? "" : " → ") + plan.kernels[i];
@@ -251,9 +302,11 @@ std::string plan_text(const Plan &plan, const MemoryPlan &memory) {
                       plan.tile_size, plan.tile_size, plan.threads);
   const auto mb = [](std::int64_t bytes) { return static_cast<double>(bytes) / 1e6; };
   text += fmt::format(
-      "memory    {:.1f} MB: scene {:.1f}, Embree about {:.1f}, film {:.1f}, waves {:.1f} ({:.2f} "
+      "memory    {:.1f} MB: scene {:.1f}, Embree about {:.1f}, film {:.1f}{}, waves {:.1f} ({:.2f} "
       "a thread)\n",
       mb(memory.total()), mb(memory.scene), mb(memory.accel_estimate), mb(memory.film),
+      (memory.replicates > 0 ? fmt::format(", replicates {:.1f}", mb(memory.replicates)) : "") +
+          (memory.pilot > 0 ? fmt::format(", pilot {:.1f}", mb(memory.pilot)) : ""),
       mb(memory.waves), mb(plan.wave_bytes()));
   return text;
 }

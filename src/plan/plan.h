@@ -31,8 +31,11 @@ struct Plan {
   FrameView frame = {};
   std::vector<float> filter_offsets;
   Rect crop;                            // what is rendered of it
-  int spp = 0;
-  double time_limit_s = 0;
+  int spp = 0;                          // at most; frame.spp is what a sampler may count on
+  double time_limit_s = 0;              // 0: none
+  double target_error = 0;              // relMSE; 0: none
+  int replicates = 0;                   // 0: none; otherwise spp is a multiple of it
+  bool adaptive = false;
   float clamp = 0;                      // see Film::set_clamp()
   // What the scene uses.
   bool material_kinds[kNumMaterialKinds] = {};
@@ -64,7 +67,9 @@ struct Plan {
 struct MemoryPlan {
   std::int64_t scene = 0, film = 0, waves = 0;
   std::int64_t accel_estimate = 0;      // Embree, estimated from primitive counts
-  std::int64_t total() const { return scene + film + waves + accel_estimate; }
+  std::int64_t replicates = 0;          // for the error estimate
+  std::int64_t pilot = 0;               // adaptive sampling: while it is running
+  std::int64_t total() const { return scene + film + waves + accel_estimate + replicates + pilot; }
 };
 
 /// Throws InputError for a frame that cannot be (size, crop window outside the picture).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "../plan/seeds.h"
 #include "../wavefront/isa.h"
 #include "../wavefront/wavefront.h"
 
@@ -24,8 +25,8 @@ struct TileRenderer::Worker {
            (wave ? wave->bytes() : 0);
   }
 
-  void render(Mode mode, const Kernels &kernels, const Plan &plan, const SceneView &scene,
-              const TileView &tile);
+  void render(Mode mode, const Kernels &kernels, const Plan &plan, const FrameView &frame,
+              const SceneView &scene, const TileView &tile);
 
   std::unique_ptr<Wave> wave;
   StageClock clock;
@@ -36,15 +37,16 @@ struct TileRenderer::Worker {
 
 /// All samples of one tile in one pass, by the schedule that was asked for.
 void TileRenderer::Worker::render(Mode mode, const Kernels &kernels, const Plan &plan,
-                                  const SceneView &scene, const TileView &tile) {
+                                  const FrameView &frame, const SceneView &scene,
+                                  const TileView &tile) {
   switch (mode) {
     case Mode::kWavefront:
       std::fill_n(tile.radiance, 3 * tile.num_samples, 0.0f);
-      render_wavefront(kernels, plan, scene, tile, *wave, clock, rays);
+      render_wavefront(kernels, plan, scene, frame, tile, *wave, clock, rays);
       break;
     case Mode::kMegakernel:
       clock.start();
-      (plan.rich ? kernels.megakernel_rich : kernels.megakernel)(scene, plan.frame, tile, lanes);
+      (plan.rich ? kernels.megakernel_rich : kernels.megakernel)(scene, frame, tile, lanes);
       rays.camera += tile.num_samples;
       rays.bounce = lanes[2];
       rays.shadow = lanes[3];
@@ -52,12 +54,12 @@ void TileRenderer::Worker::render(Mode mode, const Kernels &kernels, const Plan 
       break;
     case Mode::kDepthFirst:
       clock.start();
-      kernels.depth_first(scene, plan.frame, tile, rays, plan.rich ? kRich : kPlain);
+      kernels.depth_first(scene, frame, tile, rays, plan.rich ? kRich : kPlain);
       clock.lap(kStageShade, tile.num_samples);
       break;
     case Mode::kRecursive:
       clock.start();
-      kernels.recursive(scene, plan.frame, tile, rays, plan.rich ? kRich : kPlain);
+      kernels.recursive(scene, frame, tile, rays, plan.rich ? kRich : kPlain);
       clock.lap(kStageShade, tile.num_samples);
       break;
   }
@@ -76,11 +78,19 @@ void add_to_film(Film &film, const TileView &tile, InvalidSamples &invalid) {
   }
 }
 
+void add_to_replicates(Replicates &replicates, const TileView &tile, int replicate) {
+  const int samples = 1 << tile.log2_samples;
+  for (int i = 0; i < tile.num_pixels; ++i)
+    replicates.add_samples(tile.pixels[i] & 0xffff, (tile.pixels[i] >> 16) & 0xffff, replicate,
+                           tile.radiance + 3 * i * samples, samples, tile.first_sample);
+}
+
 }  // namespace
 
 TileRenderer::TileRenderer(const Scene &scene, const Accel &accel, const Plan &plan,
-                           const RenderOptions &options)
+                           const RenderOptions &options, std::optional<int> seed)
     : plan_(plan),
+      frame_(plan.frame),
       mode_(options.mode),
       kernels_(kernels_for(resolve_isa(options.isa))),
       view_(scene.view()),
@@ -89,14 +99,39 @@ TileRenderer::TileRenderer(const Scene &scene, const Accel &accel, const Plan &p
       invalid_(tiles_.size()),
       workers_(static_cast<size_t>(plan.threads)) {
   view_.accel = accel.handle();
+  frame_.seed = seed.value_or(frame_.seed);
 }
 
 TileRenderer::~TileRenderer() = default;
 
+TileRenderer::Worker &TileRenderer::worker_of(int thread) {
+  auto &worker = workers_[static_cast<size_t>(thread)];
+  if (!worker) worker = std::make_unique<Worker>(plan_, kernels_, mode_);
+  return *worker;
+}
+
+const std::vector<std::int32_t> &TileRenderer::pixels_of(int t) {
+  auto &pixels = pixels_[static_cast<size_t>(t)];
+  if (pixels.empty()) pixels = tile_pixels(tiles_[static_cast<size_t>(t)], plan_.tile_size);
+  return pixels;
+}
+
+TileView TileRenderer::trace(const std::vector<std::int32_t> &pixels, const Pass &pass,
+                             const FrameView &frame, Worker &worker) {
+  TileView tile = {};
+  tile.pixels = pixels.data();
+  tile.num_pixels = static_cast<int32>(pixels.size());
+  tile.log2_samples = pass.log2_samples;
+  tile.first_sample = pass.first_sample;
+  tile.num_samples = tile.num_pixels << pass.log2_samples;
+  tile.radiance = worker.radiance.data();
+  tile.aov = plan_.aovs ? worker.aov.data() : nullptr;
+  worker.render(mode_, kernels_, plan_, frame, view_, tile);
+  return tile;
+}
+
 std::int64_t TileRenderer::render(int t, const Pass &pass, int thread, Film &film) {
-  const auto at = static_cast<size_t>(t);
-  if (pixels_[at].empty()) pixels_[at] = tile_pixels(tiles_[at], plan_.tile_size);
-  return render(pixels_[at], pass, thread, film, invalid_[at]);
+  return render(pixels_of(t), pass, thread, film, invalid_[static_cast<size_t>(t)]);
 }
 
 std::int64_t TileRenderer::render(const Rect &tile, const Pass &pass, int thread, Film &film,
@@ -106,22 +141,38 @@ std::int64_t TileRenderer::render(const Rect &tile, const Pass &pass, int thread
 
 std::int64_t TileRenderer::render(const std::vector<std::int32_t> &pixels, const Pass &pass,
                                   int thread, Film &film, InvalidSamples &invalid) {
-  auto &worker = workers_[static_cast<size_t>(thread)];
-  if (!worker) worker = std::make_unique<Worker>(plan_, kernels_, mode_);
-  TileView tile = {};
-  tile.pixels = pixels.data();
-  tile.num_pixels = static_cast<int32>(pixels.size());
-  tile.log2_samples = pass.log2_samples;
-  tile.first_sample = pass.first_sample;
-  tile.num_samples = tile.num_pixels << pass.log2_samples;
-  tile.radiance = worker->radiance.data();
-  tile.aov = plan_.aovs ? worker->aov.data() : nullptr;
-  const std::int64_t rays_before = worker->rays.total();
-  worker->render(mode_, kernels_, plan_, view_, tile);
-  worker->clock.start();
+  Worker &worker = worker_of(thread);
+  const std::int64_t rays_before = worker.rays.total();
+  const TileView tile = trace(pixels, pass, frame_, worker);
+  worker.clock.start();
   add_to_film(film, tile, invalid);
-  worker->clock.lap(kStageFilm, tile.num_samples);
-  return worker->rays.total() - rays_before;
+  worker.clock.lap(kStageFilm, tile.num_samples);
+  return worker.rays.total() - rays_before;
+}
+
+std::int64_t TileRenderer::render(int t, const Pass &pass, int thread, Film &film,
+                                  Replicates &replicates) {
+  Worker &worker = worker_of(thread);
+  const std::int64_t rays_before = worker.rays.total();
+  for (int r = 0; r < replicates.count(); ++r) {
+    FrameView frame = frame_;
+    frame.seed = derived_seed(frame_.seed, SeedUse::kReplicate, r);
+    const TileView tile = trace(pixels_of(t), pass, frame, worker);
+    worker.clock.start();
+    InvalidSamples invalid;
+    add_to_film(film, tile, invalid);
+    invalid.sample = invalid.sample * replicates.count() + r;
+    invalid_[static_cast<size_t>(t)].merge(invalid);
+    add_to_replicates(replicates, tile, r);
+    worker.clock.lap(kStageFilm, tile.num_samples);
+  }
+  return worker.rays.total() - rays_before;
+}
+
+std::int64_t TileRenderer::num_invalid() const {
+  std::int64_t n = 0;
+  for (const InvalidSamples &i : invalid_) n += i.count;
+  return n;
 }
 
 RayCounts TileRenderer::rays(int thread) const {

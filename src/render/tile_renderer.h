@@ -1,10 +1,11 @@
 // Renders tiles: one tile's samples of one pass at a time, by the schedule that was asked for.
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "../core/stats.h"
-#include "../film/film.h"
+#include "../film/replicates.h"
 #include "../plan/options.h"
 #include "../plan/plan.h"
 #include "../scene/accel.h"
@@ -18,9 +19,10 @@ namespace phalanx {
 /// a function of those two alone; whoever calls it decides which thread renders what, and when.
 class TileRenderer {
  public:
-  /// `scene`, `accel` and `plan` have to outlive it. Throws InputError for an ISA that is not here.
-  TileRenderer(const Scene &scene, const Accel &accel, const Plan &plan,
-               const RenderOptions &options);
+  /// `scene`, `accel` and `plan` have to outlive it. `seed`: instead of the plan's. Throws InputError for
+  /// an ISA that is not here.
+  TileRenderer(const Scene &scene, const Accel &accel, const Plan &plan, const RenderOptions &options,
+               std::optional<int> seed = {});
   ~TileRenderer();
 
   int num_tiles() const { return static_cast<int>(tiles_.size()); }
@@ -38,6 +40,13 @@ class TileRenderer {
   /// Rays of everything that a thread has rendered so far. Only while it does not render.
   RayCounts rays(int thread) const;
 
+  /// The same for every replicate in turn: sample i of replicate r is sample i of the picture with the
+  /// seed derived_seed(seed, kReplicate, r). `pass` counts samples of one replicate. In reports of invalid
+  /// samples it has the number i * replicates.count() + r.
+  std::int64_t render(int t, const Pass &pass, int thread, Film &film, Replicates &replicates);
+
+  /// Samples so far that were not finite. Not while rendering.
+  std::int64_t num_invalid() const;
   /// Rays, stages, invalid samples and memory of everything rendered so far. Not while rendering.
   void collect(RunStats &stats) const;
 
@@ -45,7 +54,14 @@ class TileRenderer {
   struct Worker;
   std::int64_t render(const std::vector<std::int32_t> &pixels, const Pass &pass, int thread,
                       Film &film, InvalidSamples &invalid);
+  Worker &worker_of(int thread);
+  const std::vector<std::int32_t> &pixels_of(int t);
+  /// Renders the samples into the worker's block.
+  TileView trace(const std::vector<std::int32_t> &pixels, const Pass &pass, const FrameView &frame,
+                 Worker &worker);
+
   const Plan &plan_;
+  FrameView frame_;  // the plan's, but for the seed
   const Mode mode_;
   const Kernels &kernels_;
   SceneView view_;

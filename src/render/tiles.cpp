@@ -31,14 +31,26 @@ std::vector<std::int32_t> tile_pixels(Rect tile, int size) {
   return pixels;
 }
 
+Pass next_pass(int done, int spp, int most) {
+  const unsigned n = std::min(static_cast<unsigned>(most), std::bit_floor(static_cast<unsigned>(spp - done)));
+  return {done, std::countr_zero(n)};
+}
+
+Pass next_replicated_pass(int done, int samples, int most, int count) {
+  const int first = kFirstCheck / count;
+  const int grown = done < first ? first : std::max(1, static_cast<int>(std::bit_floor(static_cast<unsigned>(done))) / 2);
+  return next_pass(done, samples, std::min(most, grown));
+}
+
+bool is_error_check(int spp) {
+  const auto n = static_cast<unsigned>(spp);
+  return spp >= kFirstCheck && (std::has_single_bit(n) || (n % 3 == 0 && std::has_single_bit(n / 3)));
+}
+
 std::vector<Pass> cut_passes(int spp, int samples_per_pass) {
   std::vector<Pass> passes;
-  for (int done = 0; done < spp;) {
-    const int n = std::min<int>(samples_per_pass,
-                                static_cast<int>(std::bit_floor(static_cast<unsigned>(spp - done))));
-    passes.push_back({done, std::countr_zero(static_cast<unsigned>(n))});
-    done += n;
-  }
+  for (int done = 0; done < spp; done += 1 << passes.back().log2_samples)
+    passes.push_back(next_pass(done, spp, samples_per_pass));
   return passes;
 }
 

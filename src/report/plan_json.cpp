@@ -39,6 +39,9 @@ Json plan_json(const Plan &plan, const MemoryPlan &memory) {
                {"crop", {crop.x, crop.y, crop.width, crop.height}},
                {"spp", plan.spp},
                {"time_limit_s", plan.time_limit_s},
+               {"target_error", plan.target_error},
+               {"replicates", plan.replicates},
+               {"adaptive", plan.adaptive},
                {"seed", plan.frame.seed},
                {"max_depth", plan.frame.max_depth},
                {"threads", plan.threads},
@@ -52,6 +55,8 @@ Json plan_json(const Plan &plan, const MemoryPlan &memory) {
                           {"film", memory.film},
                           {"waves", memory.waves},
                           {"accel_estimate", memory.accel_estimate},
+                          {"replicates", memory.replicates},
+                          {"pilot", memory.pilot},
                           {"total", memory.total()}};
   return json;
 }

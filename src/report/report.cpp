@@ -4,8 +4,12 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "../plan/seeds.h"
+#include "../scene/sampler_names.h"
+#include "line_fit.h"
 #include "plan_json.h"
 #include "version.h"
 
@@ -47,12 +51,58 @@ Json clamp_json(const RunStats &stats) {
   return {{"limit", stats.clamp}, {"samples", stats.invalid.clamped}, {"energy_share", stats.clamped_share}};
 }
 
+/// "yes", "no", or null where no target was set.
+Json target_met_json(const Report &report) {
+  if (!(report.plan.target_error > 0)) return nullptr;
+  return report.error.hi95 <= report.plan.target_error ? "yes" : "no";
+}
+
+Json checks_json(const std::vector<ErrorCheck> &checks) {
+  Json list = Json::array();
+  for (const ErrorCheck &c : checks)
+    list.push_back({{"spp", c.spp}, {"wall_s", c.wall_s}, {"relmse", c.relmse}, {"lo95", c.lo95}, {"hi95", c.hi95}});
+  return list;
+}
+
+/// Tiles by the half width of the interval of their mean, relative to the mean; the three worst by relMSE.
+Json tiles_json(std::vector<TileError> tiles) {
+  if (tiles.empty()) return nullptr;
+  std::vector<double> widths;
+  for (const TileError &t : tiles) widths.push_back(t.mean > 0 ? t.half_width / t.mean : 0);
+  std::sort(widths.begin(), widths.end());
+  const auto quantile = [&](double q) {
+    return widths[static_cast<std::size_t>(q * static_cast<double>(widths.size() - 1))];
+  };
+  const std::size_t num_worst = std::min<std::size_t>(3, tiles.size());
+  std::partial_sort(tiles.begin(), tiles.begin() + static_cast<std::ptrdiff_t>(num_worst), tiles.end(),
+                    [](const TileError &a, const TileError &b) { return a.relmse > b.relmse; });
+  Json worst = Json::array();
+  for (std::size_t i = 0; i < num_worst; ++i)
+    worst.push_back({{"x", tiles[i].x}, {"y", tiles[i].y}, {"mean", tiles[i].mean},
+                     {"half_width95", tiles[i].half_width}, {"relmse", tiles[i].relmse}});
+  return {{"side", 8},
+          {"count", widths.size()},
+          {"relative_half_width95", {{"p50", quantile(0.5)}, {"p95", quantile(0.95)}, {"max", widths.back()}}},
+          {"worst", worst}};
+}
+
 /// nlohmann writes NaN and infinities as null.
-Json error_json(const ErrorEstimate &error) {
+Json error_json(const Report &report) {
+  const ErrorEstimate &error = report.error;
+  const RunStats &stats = report.stats;
   return {{"relmse_estimate", error.relmse},
           {"lo95", error.lo95},
           {"hi95", error.hi95},
-          {"method", error.method}};
+          {"method", error.method},
+          {"replicates", error.replicates},
+          {"target", report.plan.target_error > 0 ? Json(report.plan.target_error) : Json(nullptr)},
+          {"target_met", target_met_json(report)},
+          {"slope", error_slope(stats.checks)},
+          {"image_mean", error.image_mean},
+          {"image_mean_half_width95", error.image_mean_half_width},
+          {"tiles", tiles_json(report.tiles)},
+          {"checks", checks_json(stats.checks)},
+          {"check_s", stats.check_s}};
 }
 
 Json ranks_json(const std::vector<RankStats> &ranks) {
@@ -84,9 +134,17 @@ std::int64_t peak_rss_bytes() {
 std::string replay_command(const Report &report) {
   const InvalidSamples &invalid = report.stats.invalid;
   const FrameView &frame = report.plan.frame;
-  return fmt::format("phalanx replay {} --pixel {},{} --sample {} --size {}x{} --spp {} --seed {} --max-depth {} --mode {} --isa {}",
-                     report.scene, invalid.x, invalid.y, invalid.sample, frame.width, frame.height, frame.spp,
-                     frame.seed, frame.max_depth, report.stats.mode, report.stats.isa);
+  // A replicate's samples are those of a picture of its own.
+  const int replicates = std::max(1, report.plan.replicates);
+  const int seed = report.plan.replicates == 0
+                       ? frame.seed
+                       : derived_seed(frame.seed, SeedUse::kReplicate,
+                                      static_cast<int>(invalid.sample % replicates));
+  return fmt::format(
+      "phalanx replay {} --pixel {},{} --sample {} --size {}x{} --spp {} --seed {} --max-depth {} --sampler {} "
+      "--mode {} --isa {}",
+      report.scene, invalid.x, invalid.y, invalid.sample / replicates, frame.width, frame.height, frame.spp, seed,
+      frame.max_depth, sampler_name(frame.sampler), report.stats.mode, report.stats.isa);
 }
 
 std::string report_json(const Report &report) {
@@ -107,11 +165,16 @@ std::string report_json(const Report &report) {
       {"height", frame.height},
       {"crop", {crop.x, crop.y, crop.width, crop.height}},
       {"spp", stats.spp},
+      {"samples_per_pixel", stats.samples_per_pixel},
       {"seed", frame.seed},
+      {"sampler", sampler_name(frame.sampler)},
       {"max_depth", frame.max_depth},
       {"stopped_by", stats.stopped_by},
       {"resumed_spp", stats.resumed_spp},
       {"warnings", stats.warnings},
+      {"time_limit_s", report.plan.time_limit_s > 0 ? Json(report.plan.time_limit_s) : Json(nullptr)},
+      {"adaptive", report.plan.adaptive ? Json{{"pilot_spp", stats.pilot_spp}, {"pilot_s", stats.pilot_s}}
+                                        : Json(nullptr)},
       {"wall_s", stats.wall_s},
       {"cpu_s", stats.cpu_s},
       {"setup_s", stats.setup_s},
@@ -122,7 +185,7 @@ std::string report_json(const Report &report) {
       {"mrays_per_s", mrays_per_s(stats)},
       {"stages", stages_json(stats.stages)},
       {"trace_only_s", report.trace_only_s ? Json(*report.trace_only_s) : Json(nullptr)},
-      {"error", error_json(report.error)},
+      {"error", error_json(report)},
       {"invalid", invalid_json(report)},
       {"clamp", clamp_json(stats)},
       {"plan", plan_summary_json(report.plan)},

@@ -17,6 +17,7 @@ struct Report {
   ErrorEstimate error;
   std::optional<double> trace_only_s;  // Embree alone on the same rays; only if it was measured
   std::int64_t peak_rss_bytes = 0;
+  std::vector<TileError> tiles = {};  // only with replicates
 };
 
 /// Rays of all kinds per second of rendering, in millions.

@@ -2,6 +2,7 @@
 #include <climits>
 
 #include "read_scene.h"
+#include "sampler_names.h"
 
 namespace phalanx {
 
@@ -32,13 +33,9 @@ SamplerDescription read_sampler(const Node &node, Source &source) {
   SamplerDescription sampler;
   ObjectReader object(node, source);
   int kind = sampler.kind;
-  object.choice("type",
-                {{"sobol", kSobolSampler},
-                 {"independent", kIndependentSampler},
-                 {"stratified", kStratifiedSampler},
-                 {"halton", kHaltonSampler},
-                 {"blue_noise", kBlueNoiseSampler}},
-                kind);
+  std::vector<Choice> kinds;
+  for (const auto &[name, k] : kSamplerNames) kinds.push_back({name, k});
+  object.choice("type", kinds, kind);
   sampler.kind = static_cast<SamplerKind>(kind);
   object.integer("spp", 1, kMaxSamples, sampler.spp);
   object.integer("seed", 0, INT_MAX, sampler.seed);

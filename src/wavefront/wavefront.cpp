@@ -19,9 +19,9 @@ Shading shading_of(const Kernels &k, const Plan &plan, int32 kind) {
 }  // namespace
 
 void render_wavefront(const Kernels &k, const Plan &plan, const SceneView &scene,
-                      const TileView &tile, Wave &paths, StageClock &clock, RayCounts &rays) {
+                      const FrameView &frame, const TileView &tile, Wave &paths, StageClock &clock,
+                      RayCounts &rays) {
   const WaveView &wave = paths.view();
-  const FrameView &frame = plan.frame;
   paths.clear();
   int32 next_sample = 0;
   clock.start();

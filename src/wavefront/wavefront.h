@@ -7,8 +7,9 @@
 namespace phalanx {
 
 /// Renders all samples of `tile` (tile.radiance holds zeros) with the wave's slots, refilling them
-/// as paths end. Every sample's radiance has the bits of depth-first.
+/// as paths end. `frame` is the plan's, but for its seed. Every sample's radiance has the bits of depth-first.
 void render_wavefront(const Kernels &kernels, const Plan &plan, const SceneView &scene,
-                      const TileView &tile, Wave &wave, StageClock &clock, RayCounts &rays);
+                      const FrameView &frame, const TileView &tile, Wave &wave, StageClock &clock,
+                      RayCounts &rays);
 
 }  // namespace phalanx
