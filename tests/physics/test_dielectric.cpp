@@ -48,7 +48,10 @@ TEST_CASE("dielectric: R + T = 1 for energy; radiance carries 1 / eta^2 into the
     const Vec3 wo = at_angle(random.fine(), 6 * random.fine());
     if (std::fabs(ior - 1) < 1e-4f || !(wo.z > 0)) continue;
     const BsdfSample reflected = sample_dielectric(dielectric(ior), front, wo, 0.0f);
-    if (reflected.wi.z > 0) REQUIRE(reflected.weight.x == 1.0f);
+    if (reflected.wi.z > 0) {
+      REQUIRE(reflected.weight.x == 1.0f);
+      REQUIRE((reflected.wi.x == -wo.x && reflected.wi.y == -wo.y && reflected.wi.z == wo.z));
+    }
     const BsdfSample passed = sample_dielectric(dielectric(ior), front, wo, kMost);
     REQUIRE(passed.pdf == 0.0f);
     if (passed.wi.z < 0) REQUIRE(passed.weight.x * eta * eta == doctest::Approx(1).epsilon(1e-6));

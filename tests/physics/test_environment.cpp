@@ -225,3 +225,20 @@ TEST_CASE("environment map: up is the first row, the middle column at -z, column
   CHECK(look({-1, 0, 0}, 0.25) == doctest::Approx(11.5));
   CHECK(look({0, 0, -1}, 0.25) == doctest::Approx(12.5));
 }
+
+TEST_CASE("environment map: places within an interval keep their digits among a million (L1)") {
+  const int32 count = 1 << 20;
+  std::vector<double> cdf(static_cast<std::size_t>(count) + 1);
+  for (int32 i = 0; i <= count; ++i) cdf[static_cast<std::size_t>(i)] = d(static_cast<float>(i)) / count;
+  // Off the grid of single precision, where its rounding would show.
+  for (int32 i = 1; i < count; ++i) cdf[static_cast<std::size_t>(i)] += 3e-9;
+  Random random(8);
+  for (int i = 0; i < 20000; ++i) {
+    const float u = random.unit();
+    const Interval at = find_interval(cdf.data(), 0, count, u);
+    const double from = cdf[static_cast<std::size_t>(at.index)], to = cdf[static_cast<std::size_t>(at.index) + 1];
+    REQUIRE(from <= d(u));
+    REQUIRE(d(u) < to);
+    REQUIRE(std::fabs(d(at.offset) - (d(u) - from) / (to - from)) < 1e-6);
+  }
+}

@@ -201,6 +201,18 @@ TEST_CASE("path_vertex: Russian roulette keeps the mean throughput (Q6)") {
   CHECK(v.next.depth == 1);
 }
 
+TEST_CASE("path_vertex: roulette begins with the scattering event that roulette_depth names") {
+  const ToyScene scene = lit_floor(diffuse(0.3f));
+  FrameView frame = scene.frame();
+  for (const int32 depth : {1, 2}) {
+    frame.roulette_depth = depth;
+    int ended = 0;
+    for (int i = 0; i < 1000; ++i)
+      ended += path_vertex<kDiffuse, kPlain>(scene.view(), frame, falling(i), kFloor).next.depth < 0;
+    CHECK((ended > 0) == (depth == 1));
+  }
+}
+
 TEST_CASE("path_vertex: black and too deep paths end after emission (Q7, M8)") {
   const ToyScene scene = random_scene(5, 1);
   const SceneView view = scene.view();

@@ -269,3 +269,14 @@ TEST_CASE("rng: pixels of a picture have scrambles of their own, but for chance"
   const double expected = std::pow(size, 4) / std::pow(2, 33);
   CHECK(std::fabs(collisions - expected) < 5 * std::sqrt(expected));
 }
+
+TEST_CASE("rng: no two decisions of a path share a pair of numbers") {
+  std::set<int> pairs = {PHALANX_PAIR_PIXEL, PHALANX_PAIR_LENS};
+  int decisions = 2;
+  for (int vertex = 0; vertex < 100; ++vertex)
+    for (const int pair : {PHALANX_PAIR_BSDF, PHALANX_PAIR_LOBE, PHALANX_PAIR_LIGHT, PHALANX_PAIR_LIGHT_CHOICE}) {
+      pairs.insert(PHALANX_PAIR_FIRST_VERTEX + vertex * PHALANX_PAIRS_PER_VERTEX + pair);
+      ++decisions;
+    }
+  CHECK(pairs.size() == static_cast<std::size_t>(decisions));
+}

@@ -147,6 +147,19 @@ TEST_CASE("warp: corners and edges of the square stay inside the shapes") {
   CHECK((middle.x == 0.0f && middle.y == 0.0f));
 }
 
+TEST_CASE("warp: diagonals of the square stay diagonals of the disk, axes axes") {
+  for (int i = 1; i <= 64; ++i) {
+    const float half = static_cast<float>(i) / 128;
+    for (const float side : {-1.0f, 1.0f}) {
+      const Vec2 corner = square_to_disk(vec2(0.5f + half, 0.5f + side * half));
+      CHECK(corner.x == doctest::Approx(side * corner.y).epsilon(1e-6));
+      CHECK(std::hypot(corner.x, corner.y) == doctest::Approx(2 * half).epsilon(1e-6));
+      CHECK(square_to_disk(vec2(0.5f + side * half, 0.5f)).y == 0.0f);
+      CHECK(std::fabs(square_to_disk(vec2(0.5f, 0.5f + side * half)).x) < 1e-7f);
+    }
+  }
+}
+
 TEST_CASE("warp: disk of a stratified square is area-preserving cell by cell") {
   // Jacobian by central differences in double-sized steps: |d(x,y)/d(u,v)| = pi.
   Random random(3);
