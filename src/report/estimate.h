@@ -35,9 +35,11 @@ ErrorEstimate estimate_error(const Film &film, bool stratified);
 /// 1980), and what bias is left is reduced by the jackknife over replicates (Quenouille 1956).
 ///
 /// The interval is on the logarithm. Its half width is the root of the sum of squares of a statistical part,
-/// Student's t with R - 1 degrees of freedom times the jackknife's standard error (Tukey 1958), and a
-/// systematic one, half of what all this has changed against own means. NaN with two replicates. It is about
-/// the error that such pictures have on average. What no replicate has seen, it cannot know.
+/// Student's t with R - 1 degrees of freedom times the jackknife's standard error (Tukey 1958); a systematic
+/// one, half of what all this has changed against own means; and 7 % for rare paths that other seeds would
+/// have seen, chosen so that 95 % of the intervals hold on the scenes of docs/error.md. NaN with two
+/// replicates. It is about the error that such pictures have on average. What no replicate has seen, it
+/// cannot know.
 ErrorEstimate estimate_error(const Replicates &replicates, int threads);
 
 /// A tile of 8 x 8 pixels, cut off at the right and the bottom. x, y: in the full picture.

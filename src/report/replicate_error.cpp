@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kTileSide = 8;
 constexpr int kReach = 3;           // of the widest window of neighbours, pixels
+constexpr double kUnseen = 0.07;    // part of the interval's half width for what was not seen
 constexpr double kReliable = 0.1;   // relative variance of the sum over a window
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -202,7 +203,7 @@ ErrorEstimate estimate_error(const Replicates &replicates, int threads) {
   e.relmse = variance / n;
   const double statistical = quotient(student_t_quantile(0.05, n - 1) * standard_error, variance);
   const double systematic = variance > 0 ? 0.5 * std::log(variance / v.plain) : 0;
-  const double spread = std::hypot(statistical, systematic);
+  const double spread = std::hypot(statistical, systematic, kUnseen);
   e.lo95 = e.relmse * std::exp(-spread);
   e.hi95 = e.relmse * std::exp(spread);
   return e;
