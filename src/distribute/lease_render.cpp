@@ -431,6 +431,7 @@ RunStats Coordinator::stats_so_far(const std::vector<BookTile> &tiles) const {
   stats.invalid = tally_.invalid;
   for (const Peer &peer : peers_) stats.per_rank.push_back(peer.figures);
   stats.per_rank[0].busy_s = crew_.busy_s();
+  stats.per_rank[0].cpu_s = crew_.cpu_s();
   stats.per_rank[0].waiting_s = crew_.waiting_s();
   stats.per_rank[0].communicating_s = ranks_.seconds();
   return stats;
