@@ -39,6 +39,7 @@ struct RayCounts {
 struct RankStats {
   int rank = 0, threads = 1;
   double busy_s = 0;           // rendering, wall clock
+  double cpu_s = 0;            // of busy_s: less where others use the machine, too
   double waiting_s = 0;        // for a tile to render
   double communicating_s = 0;  // packing, sending and receiving, on a thread of its own
   std::int64_t tiles = 0;      // leases that came back

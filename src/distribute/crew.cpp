@@ -13,6 +13,12 @@ namespace {
 
 std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
 
+std::int64_t thread_cpu_ns() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
+}
+
 }  // namespace
 
 bool render_lease(TileRenderer &tiles, const Plan &plan, const Work &work, int thread,
@@ -67,8 +73,10 @@ void Crew::run(int thread) {
     const double start = wall_seconds();
     waiting_ns_ += nanoseconds(start - idle_since);
     Finished finished;
+    const std::int64_t cpu_start = thread_cpu_ns();
     if (!render_lease(tiles_, plan_, work, thread, stop_, finished)) return;
     busy_ns_ += nanoseconds(finished.seconds);
+    cpu_ns_ += thread_cpu_ns() - cpu_start;
     const std::lock_guard lock(mutex_);
     finished_.push_back(std::move(finished));
     work_done_.notify_all();

@@ -49,6 +49,7 @@ class Crew {
   void stop();
 
   double busy_s() const { return busy_ns_ * 1e-9 / threads_; }        // mean over the threads
+  double cpu_s() const { return cpu_ns_ * 1e-9 / threads_; }
   double waiting_s() const { return waiting_ns_ * 1e-9 / threads_; }
 
  private:
@@ -63,7 +64,7 @@ class Crew {
   std::vector<Finished> finished_;
   std::exception_ptr failure_;
   std::atomic<bool> stop_ = false;
-  std::atomic<std::int64_t> busy_ns_ = 0, waiting_ns_ = 0;
+  std::atomic<std::int64_t> busy_ns_ = 0, cpu_ns_ = 0, waiting_ns_ = 0;
   std::thread team_;
 };
 

@@ -108,6 +108,11 @@ double LeaseBook::cost_of_sample(std::int32_t tile) const {
   return sample_s_[t] > 0 ? sample_s_[t] : pixel_sample_s() * area(tiles_[t].rect);
 }
 
+/// The shortest lease that it is worth to talk about.
+double LeaseBook::shortest_s() const {
+  return std::max(terms_.smallest_s, terms_.message_s * threads_of_pool(&pools_.back(), 0));
+}
+
 std::optional<Lease> LeaseBook::grant(int rank, double now) {
   for (;;) {
     const Pool *const pool = pool_for(rank);
@@ -121,14 +126,18 @@ std::optional<Lease> LeaseBook::grant(int rank, double now) {
     const double least_s = sample_s * std::min(missing, terms_.samples);
 
     const bool can_split = std::max(t.rect.width, t.rect.height) > terms_.smallest_side;
-    if (can_split && threads > 1 && least_s > std::max(terms_.smallest_s, 0.25 * left_s)) {
+    if (can_split && threads > 1 && least_s > std::max(shortest_s(), 0.25 * left_s)) {
       split(tile);
       continue;
     }
-    const double wanted_s = std::min(terms_.longest_s, 0.25 * left_s);
-    const double units = sample_s > 0 ? wanted_s / (sample_s * terms_.samples) : 1;
-    // At most as many as it has: the picture gets finer everywhere at about the same time.
-    const double most = std::max(1.0, std::floor(static_cast<double>(t.samples) / terms_.samples));
+    const double wanted_s =
+        std::max(shortest_s(), std::min(terms_.longest_s, 0.25 * left_s));
+    const bool is_known = sample_s_[static_cast<std::size_t>(tile)] > 0;  // it may be far from the mean
+    const double units = is_known ? wanted_s / (sample_s * terms_.samples) : 1;
+    // While there is much to do, at most as many as it has: the picture gets finer everywhere alike.
+    const double most = left_s < terms_.even_s
+                            ? 1e6
+                            : std::max(1.0, std::floor(static_cast<double>(t.samples) / terms_.samples));
     const int samples = static_cast<int>(std::clamp(std::floor(units), 1.0, most)) * terms_.samples;
 
     take(tile);

@@ -32,7 +32,9 @@ class LeaseBook {
   struct Terms {
     int samples = 16;         // of a pixel at a time; leases are multiples, but for the last
     double longest_s = 0.3;   // so that little is lost with a rank, or when a signal comes
-    double smallest_s = 2e-3; // a tile is not split to get below this
+    double smallest_s = 2e-3; // a tile is not split to get below this,
+    double message_s = 5e-5;  // nor below this times all threads: rank 0 has to keep up
+    double even_s = 10;       // with more than this left, no tile gets far ahead of others
     int smallest_side = 8;    // pixels
     std::int64_t first_id = 1;  // of leases; books in use one after the other must not share any
     double overdue_s = 2;     // a lease this old may be given to a second rank, if nothing else is left
@@ -103,6 +105,7 @@ class LeaseBook {
   void split(std::int32_t tile);
   double pixel_sample_s() const;
   double cost_of_sample(std::int32_t tile) const;
+  double shortest_s() const;
   std::optional<Lease> grant_again(int rank, double now);
 
   std::vector<BookTile> tiles_;

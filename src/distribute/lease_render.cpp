@@ -435,6 +435,7 @@ RunStats Coordinator::stats_so_far(const std::vector<BookTile> &tiles) const {
   add_clamp_figures(stats, film_, plan_.clamp);
   for (const Peer &peer : peers_) stats.per_rank.push_back(peer.figures);
   stats.per_rank[0].busy_s = crew_.busy_s();
+  stats.per_rank[0].cpu_s = crew_.cpu_s();
   stats.per_rank[0].waiting_s = crew_.waiting_s();
   stats.per_rank[0].communicating_s = ranks_.seconds();
   return stats;

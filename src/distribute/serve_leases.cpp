@@ -26,6 +26,7 @@ bool serve_leases(Ranks &ranks, const Scene &scene, const Accel &accel, const Pl
   figures.threads = plan.threads;
   const auto refresh = [&] {
     figures.busy_s = crew.busy_s();
+    figures.cpu_s = crew.cpu_s();
     figures.waiting_s = crew.waiting_s();
     figures.communicating_s = ranks.seconds();
   };

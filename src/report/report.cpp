@@ -111,6 +111,7 @@ Json ranks_json(const std::vector<RankStats> &ranks) {
     list.push_back({{"rank", r.rank},
                     {"threads", r.threads},
                     {"busy_s", r.busy_s},
+                    {"cpu_s", r.cpu_s},
                     {"waiting_s", r.waiting_s},
                     {"communicating_s", r.communicating_s},
                     {"tiles", r.tiles},

@@ -36,7 +36,8 @@ TEST_CASE("report: all keys are present even when nothing is known") {
        {"version",        "scene",       "mode",   "isa",          "threads", "ranks",   "width",
         "height",         "spp",         "seed",   "max_depth",    "wall_s",  "cpu_s",   "setup_s",
         "rays",           "mrays_per_s", "stages", "trace_only_s", "error",   "invalid", "plan",
-        "peak_rss_bytes", "stopped_by",  "crop",   "clamp"})
+        "peak_rss_bytes", "stopped_by",  "crop",   "clamp",        "balance",      "imbalance", "per_rank", "resumed_spp",
+        "warnings"})
     CHECK_MESSAGE(json.contains(key), key);
   for (const char *key : {"camera", "bounce", "shadow"}) CHECK(json["rays"].contains(key));
   for (const char *key : {"relmse_estimate", "lo95", "hi95", "method"})
