@@ -98,7 +98,7 @@ void BiasSums::add(const Image &x, const ReferencePair &reference) {
   num_++;
 }
 
-Interval BiasSums::squared(const ReferencePair &reference) const {
+Interval95 BiasSums::squared(const ReferencePair &reference) const {
   if (num_ < 2) return {kUnknown, kUnknown, kUnknown};
   const auto pa = rgb_planes(reference.a), pb = rgb_planes(reference.b),
              pr = rgb_planes(reference.mean);
@@ -126,7 +126,7 @@ Interval BiasSums::squared(const ReferencePair &reference) const {
   return {value, value - half, value + half};
 }
 
-Interval BiasSums::image_mean(const ReferencePair &reference, int spp) const {
+Interval95 BiasSums::image_mean(const ReferencePair &reference, int spp) const {
   if (num_ < 2) return {kUnknown, kUnknown, kUnknown};
   const double r = phalanx::image_mean(reference.mean);
   const double bias = mean_of(means_) / r - 1;
@@ -203,11 +203,11 @@ std::vector<std::size_t> all_runs(const Curve &curve) {
 /// `figure` of all runs, with the interval that the percentiles of resampled runs give (Efron and
 /// Tibshirani, "An Introduction to the Bootstrap", 1993, chapter 13). NaN where more than one in twenty
 /// resamplings knows no figure.
-Interval bootstrap(std::size_t num_runs,
+Interval95 bootstrap(std::size_t num_runs,
                    const std::function<double(const std::vector<std::size_t> &)> &figure) {
   std::vector<std::size_t> runs(num_runs);
   for (std::size_t r = 0; r < num_runs; ++r) runs[r] = r;
-  Interval result{figure(runs), kUnknown, kUnknown};
+  Interval95 result{figure(runs), kUnknown, kUnknown};
   std::mt19937 random(1);
   std::vector<double> values;
   for (int i = 0; i < kResamples; ++i) {

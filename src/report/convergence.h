@@ -47,7 +47,7 @@ struct RunPoint {
 };
 
 /// A number with its 95 % interval.
-struct Interval {
+struct Interval95 {
   double value = 0, lo = 0, hi = 0;
 };
 
@@ -58,10 +58,10 @@ class BiasSums {
   int num_runs() const { return num_; }
   /// Squared bias relative to the picture, mean of E[x - a] E[x - b] / (r^2 + eps), from all pairs of
   /// different runs; interval by Student's t over tiles of 16 x 16 pixels. Needs two runs.
-  Interval squared(const ReferencePair &reference) const;
+  Interval95 squared(const ReferencePair &reference) const;
   /// Mean of all pictures / mean of the reference - 1. The interval takes the references' noise per sample
   /// for that of the runs. `spp`: of a run.
-  Interval image_mean(const ReferencePair &reference, int spp) const;
+  Interval95 image_mean(const ReferencePair &reference, int spp) const;
 
  private:
   int num_ = 0;
@@ -74,7 +74,7 @@ struct Curve {
   Mode mode = Mode::kWavefront;
   std::string sampler;
   std::vector<std::vector<RunPoint>> runs;
-  Interval squared_bias, mean_bias;
+  Interval95 squared_bias, mean_bias;
   std::string name() const;  // "wavefront, sobol"
 };
 
@@ -93,7 +93,7 @@ struct CurvePoint {
   int spp = 0;
   double samples_per_pixel = 0;
   double wall_s = 0, cpu_s = 0, rays = 0;  // medians over runs
-  Interval relmse;                         // mean over runs, Student's t
+  Interval95 relmse;                         // mean over runs, Student's t
   double relmse_trimmed = 0, mse = 0, smape = 0, flip = 0;  // means
   double estimate = 0;                     // mean of what runs said
   double coverage = 0;                     // share of runs whose interval held relmse; NaN: none
@@ -102,8 +102,8 @@ struct CurvePoint {
 
 struct CurveFigures {
   std::vector<CurvePoint> points;
-  Interval slope;                     // of log relMSE over log seconds, last five points
-  std::vector<Interval> seconds_to;   // for each target; NaN where it was not reached
+  Interval95 slope;                     // of log relMSE over log seconds, last five points
+  std::vector<Interval95> seconds_to;   // for each target; NaN where it was not reached
 };
 
 /// Intervals by bootstrap over the runs, with fixed random numbers.
@@ -112,8 +112,8 @@ CurveFigures curve_figures(const Curve &curve, const std::vector<double> &target
 /// A curve against the first one. Runs of the same seed are pairs.
 struct Versus {
   double at_error = 0, at_s = 0;  // the smallest error that both reach; the longest time that both have
-  Interval speed_up;              // seconds of the first / seconds, to that error
-  Interval error_ratio;           // relMSE / relMSE of the first, after that time
+  Interval95 speed_up;              // seconds of the first / seconds, to that error
+  Interval95 error_ratio;           // relMSE / relMSE of the first, after that time
 };
 Versus versus(const Curve &first, const Curve &curve);
 

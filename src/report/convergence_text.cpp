@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 std::string number(double x) { return std::isnan(x) ? "-" : fmt::format("{:.3g}", x); }
 
-std::string interval(const Interval &i, int digits = 3) {
+std::string interval(const Interval95 &i, int digits = 3) {
   if (std::isnan(i.value)) return "-";
   std::string text = fmt::format("{:.{}g}", i.value, digits);
   if (!std::isnan(i.lo)) text += fmt::format(" [{:.{}g}, {:.{}g}]", i.lo, digits, i.hi, digits);
@@ -69,7 +69,7 @@ std::string versus_text(const SceneConvergence &scene) {
   return text;
 }
 
-Json interval_json(const Interval &i) { return {{"value", i.value}, {"lo95", i.lo}, {"hi95", i.hi}}; }
+Json interval_json(const Interval95 &i) { return {{"value", i.value}, {"lo95", i.lo}, {"hi95", i.hi}}; }
 
 Json run_json(const std::vector<RunPoint> &run) {
   Json list = Json::array();

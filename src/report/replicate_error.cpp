@@ -117,15 +117,15 @@ Shrunk shrunk(const Planes &p, int width, int height, int x, int y, int c) {
     w = {};
     for (int v = std::max(0, y - reach); v <= std::min(height - 1, y + reach); ++v)
       for (int u = std::max(0, x - reach); u <= std::min(width - 1, x + reach); ++u)
-        w.add(double{p.mean[index(u, v)]}, double{p.variance[index(u, v)]});
-    reliable = w.variance <= kReliable * square(w.mean);
+        if (u != x || v != y) w.add(double{p.mean[index(u, v)]}, double{p.variance[index(u, v)]});
+    reliable = w.mean != 0 && w.variance <= kReliable * square(w.mean);
   }
-  if (!reliable) return {w.mean / w.n, 1 / w.n};
-  const double n = w.n - 1;
+  const double n = w.n;
   if (n < 2) return {own, 1};
-  const double average = (w.mean - own) / n;
-  const double spread = (w.square - own * own - n * average * average) / (n - 1);
-  const double signal = std::max(0.0, spread - (w.variance - own_variance) / n);
+  if (!reliable) return {(w.mean + own) / (n + 1), 1 / (n + 1)};
+  const double average = w.mean / n;
+  const double spread = (w.square - n * average * average) / (n - 1);
+  const double signal = std::max(0.0, spread - w.variance / n);
   const double weight = signal / (signal + own_variance);
   return {average + weight * (own - average), weight};
 }

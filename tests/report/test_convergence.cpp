@@ -97,14 +97,14 @@ TEST_CASE("bias: covers 0 for noise, is found where it is") {
     none.add(noisy(100 + i, 0.2), reference);
     some.add(noisy(200 + i, 0.2, 1.03), reference);
   }
-  const Interval no_bias = none.squared(reference), bias = some.squared(reference);
+  const Interval95 no_bias = none.squared(reference), bias = some.squared(reference);
   CHECK(no_bias.lo < 0);
   CHECK(no_bias.hi > 0);
   CHECK(no_bias.hi < 2e-4);
   CHECK(bias.lo < 9e-4);
   CHECK(bias.hi > 9e-4);
   CHECK(bias.lo > 5e-4);
-  const Interval mean = some.image_mean(reference, 100);
+  const Interval95 mean = some.image_mean(reference, 100);
   CHECK(mean.lo < 0.03);
   CHECK(mean.hi > 0.03);
   CHECK(mean.lo > 0.025);
