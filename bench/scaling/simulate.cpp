@@ -27,8 +27,8 @@ namespace {
 struct Network {
   double latency_s = 20e-6;        // of a message, one way
   double bytes_per_s = 1.2e9;      // of each link; rank 0's is shared by all
-  double handling_s = 30e-6;       // of rank 0 for each message, copying apart
-  double copy_bytes_per_s = 3e9;   // of rank 0: film in, film out, checksum
+  double handling_s = 3e-6;        // of rank 0 for each message, copying apart
+  double copy_bytes_per_s = 4e9;   // of rank 0: message, checksum, film
   double poll_s = 0.5e-3;          // until a waiting process looks: half of its period
 };
 
@@ -152,15 +152,16 @@ class Simulation {
         const auto lease = book.grant(r, now_);
         if (!lease) continue;
         ++rank.in_flight;
-        double out = zero_free_;
+        double out = std::max(zero_free_, now_);
         if (lease->first_sample > 0) out += bytes(*lease) / s_.network.copy_bytes_per_s;
+        zero_free_ = out;
         if (r > 0) {
-          zero_free_ = std::max(zero_free_, now_) + s_.network.handling_s;
+          zero_free_ += s_.network.handling_s;
           const double film_s = lease->first_sample > 0 ? transfer_s(*lease) : 0;
           out = zero_free_ + s_.network.latency_s + film_s + s_.network.poll_s;
           ++outcome_.messages;
         }
-        events_.push({std::max(out, now_), Event::kArrivesAtRank, r, *lease, 0});
+        events_.push({out, Event::kArrivesAtRank, r, *lease, 0});
         still.push_back(r);
         any = true;
       }

@@ -43,6 +43,17 @@ int launched_rank() { return rank_in_environment() > 0 ? rank_in_environment() :
 namespace {
 constexpr std::size_t kPiece = 64u << 20;  // counts of MPI are ints
 constexpr double kFlushSeconds = 5;
+
+/// Nothing if the checksum at the end is not the one of the rest.
+std::optional<Message> without_checksum(Message message) {
+  std::vector<std::byte> &bytes = message.bytes;
+  std::uint32_t crc = 0;
+  if (bytes.size() < sizeof crc) return std::nullopt;
+  std::memcpy(&crc, bytes.data() + bytes.size() - sizeof crc, sizeof crc);
+  bytes.resize(bytes.size() - sizeof crc);
+  if (crc32c(bytes) != crc) return std::nullopt;
+  return message;
+}
 }  // namespace
 
 struct Ranks::Library {
@@ -52,7 +63,12 @@ struct Ranks::Library {
     std::vector<std::byte> bytes;
   };
   std::list<Sending> sending;
-  std::list<Sending> abandoned;  // to and from lost ranks: their memory belongs to MPI for ever
+  std::list<Sending> abandoned;  // to lost ranks: their memory belongs to MPI for ever
+  struct Receiving {
+    MPI_Request request;
+    Message message;
+  };
+  std::list<Receiving> receiving;  // what a lost rank has begun stays here
 
   void forget_sent() {
     for (auto s = sending.begin(); s != sending.end();) {
@@ -67,6 +83,8 @@ Ranks::Ranks() {
   if (rank_in_environment() < 0) return;
   // Shared memory is read by copying through it, not out of a process that may be gone meanwhile.
   setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
+  setenv("OMPI_MCA_btl_vader_eager_limit", "65536", 0);  // a tile goes in one piece
+  setenv("OMPI_MCA_btl_vader_max_send_size", "65536", 0);
   // No barrier before the end: with lost ranks it may never open.
   setenv("OMPI_MCA_async_mpi_finalize", "1", 0);
   int provided = 0;
@@ -126,43 +144,35 @@ void Ranks::send(int to, int tag, std::vector<std::byte> bytes) {
   seconds_ += wall_seconds() - start;
 }
 
+/// Long messages come in pieces that their sender has to hand over: they are begun, and looked at again.
 std::optional<Message> Ranks::receive() {
   if (!library_) return std::nullopt;
   const double start = wall_seconds();
-  std::optional<Message> message;
   int arrived = 0;
   MPI_Status status;
   MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &arrived, &status);
   if (arrived) {
     int count = 0;
     MPI_Get_count(&status, MPI_BYTE, &count);
-    message = Message{status.MPI_SOURCE, status.MPI_TAG, {}};
-    message->bytes.resize(static_cast<std::size_t>(count));
-    // A rank may be lost half-way through a long message: look again and again instead of waiting.
-    MPI_Request request;
-    MPI_Irecv(message->bytes.data(), count, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG,
-              MPI_COMM_WORLD, &request);
-    int complete = 0;
-    while (!complete && wall_seconds() - start < 2) MPI_Test(&request, &complete, MPI_STATUS_IGNORE);
-    if (!complete) {  // its memory belongs to MPI from now on
-      library_->abandoned.push_back({status.MPI_SOURCE, request, std::move(message->bytes)});
-      message.reset();
-    }
+    Library::Receiving &r = library_->receiving.emplace_back();
+    r.message = {status.MPI_SOURCE, status.MPI_TAG,
+                 std::vector<std::byte>(static_cast<std::size_t>(count))};
+    MPI_Irecv(r.message.bytes.data(), count, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG,
+              MPI_COMM_WORLD, &r.request);
   }
-  if (message) {
-    std::vector<std::byte> &bytes = message->bytes;
-    std::uint32_t crc = 0;
-    const bool has_crc = bytes.size() >= sizeof crc;
-    if (has_crc) {
-      std::memcpy(&crc, bytes.data() + bytes.size() - sizeof crc, sizeof crc);
-      bytes.resize(bytes.size() - sizeof crc);
+  std::optional<Message> message;
+  for (auto r = library_->receiving.begin(); r != library_->receiving.end() && !message;) {
+    int is_complete = 0;
+    MPI_Test(&r->request, &is_complete, MPI_STATUS_IGNORE);
+    const auto next = std::next(r);
+    if (is_complete) {
+      message = without_checksum(std::move(r->message));
+      if (!message) ++num_damaged_;
+      library_->receiving.erase(r);
     }
-    if (!has_crc || crc32c(bytes) != crc) {
-      ++num_damaged_;
-      message.reset();
-    }
-    seconds_ += wall_seconds() - start;
+    r = next;
   }
+  if (message || arrived) seconds_ += wall_seconds() - start;
   return message;
 }
 

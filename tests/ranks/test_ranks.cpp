@@ -142,7 +142,7 @@ TEST_CASE("ranks: the report and the map say who rendered what") {
 TEST_CASE("ranks: killed workers change nothing but the time, and are reported") {
   if (!can_run_ranks()) return;
   const TempDir dir;
-  const std::string common = "render " + kGlass + " --quiet --size 150x130 --aov all --spp 400 --threads ";
+  const std::string common = "render " + kGlass + " --quiet --size 150x130 --aov all --spp 300 --threads ";
   REQUIRE(phalanx_in(dir, common + "2 -o one.exr").exit_code == 0);
   for (const char *balance : {"dynamic", "rows"}) {
     CAPTURE(balance);
@@ -164,14 +164,14 @@ TEST_CASE("ranks: killed workers change nothing but the time, and are reported")
     CHECK(report["per_rank"][2]["lost"] == false);
     CHECK(report["per_rank"][3]["lost"] == true);
     CHECK(report["warnings"].size() == 2);
-    CHECK(report["spp"] == 400);
+    CHECK(report["spp"] == 300);
   }
 }
 
 TEST_CASE("ranks: a job that is terminated leaves image and checkpoint, and others go on from it") {
   if (!can_run_ranks()) return;
   const TempDir dir;
-  const std::string common = "render " + kGlass + " --quiet --size 150x130 --aov all --spp 300";
+  const std::string common = "render " + kGlass + " --quiet --size 150x130 --aov all --spp 200";
   REQUIRE(phalanx_in(dir, common + " -o one.exr --threads 2").exit_code == 0);
   {
     Background job(dir, common + " --threads 1 -o a.exr --report r.json --checkpoint c.ckpt --checkpoint-every 0.05",
