@@ -313,7 +313,7 @@ TEST_CASE("lights: a sampled point and a hit at that point read textures at the 
       {"type": "sphere", "material": "lamp", "center": [1, 2, 3], "radius": 2},
       {"type": "disk", "material": "lamp", "center": [0, 0, 0], "normal": [1, 2, 3], "radius": 2},
       {"type": "mesh", "material": "lamp", "file": "lamp.obj"},
-      {"type": "mesh", "material": "lamp", "positions": [0, 0, 0, 1, 0, 0, 0, 1, 0], "indices": [0, 1, 2]}])",
+      {"type": "mesh", "material": "lamp", "positions": [0, 0, 1, 1, 0, 1, 0, 1, 1], "indices": [0, 1, 2]}])",
                             folder.path());
   CHECK(built.problems == "");
   const SceneView view = built.scene.view();
