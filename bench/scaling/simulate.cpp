@@ -29,7 +29,7 @@ struct Network {
   double bytes_per_s = 1.2e9;      // of each link; rank 0's is shared by all
   double handling_s = 3e-6;        // of rank 0 for each message, copying apart
   double copy_bytes_per_s = 4e9;   // of rank 0: message, checksum, film
-  double poll_s = 0.5e-3;          // until a waiting process looks: half of its period
+  double poll_s = 1e-3;            // until a waiting process looks: half of its period
 };
 
 struct Setting {

@@ -16,7 +16,7 @@
 namespace phalanx {
 namespace {
 
-constexpr double kPollSeconds = 1e-3;
+constexpr double kPollSeconds = 2e-3;     // between looks at messages; own leases wake it
 constexpr double kChoresSeconds = 0.05;   // between looks at signals, silence, checkpoints
 constexpr double kProgressSeconds = 0.25;
 constexpr double kAliveSeconds = 1;       // between words to other ranks
@@ -370,7 +370,7 @@ void Coordinator::render_until_done(LeaseBook &book, bool may_grow) {
     if (may_grow) grow_target(book);
     if (book.done()) return;
     lease_out(book);
-    for (const Finished &finished : crew_.take(kPollSeconds)) {
+    for (const Finished &finished : crew_.take(ranks_.size() > 1 ? kPollSeconds : kChoresSeconds)) {
       RankStats &own = peers_[0].figures;
       ++own.tiles;
       own.rays += finished.rays.total();

@@ -6,7 +6,7 @@
 namespace phalanx {
 namespace {
 
-constexpr double kPollSeconds = 1e-3;
+constexpr double kPollSeconds = 2e-3;
 constexpr double kAliveSeconds = 0.5;
 constexpr double kGiveUpSeconds = 30;  // of silence
 
