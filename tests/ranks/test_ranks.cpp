@@ -171,7 +171,7 @@ TEST_CASE("ranks: killed workers change nothing but the time, and are reported")
 TEST_CASE("ranks: a job that is terminated leaves image and checkpoint, and others go on from it") {
   if (!can_run_ranks()) return;
   const TempDir dir;
-  const std::string common = "render " + kGlass + " --quiet --size 150x130 --aov all --spp 200";
+  const std::string common = "render " + kGlass + " --quiet --size 150x130 --aov all --spp 700";
   REQUIRE(phalanx_in(dir, common + " -o one.exr --threads 2").exit_code == 0);
   {
     Background job(dir, common + " --threads 1 -o a.exr --report r.json --checkpoint c.ckpt --checkpoint-every 0.05",

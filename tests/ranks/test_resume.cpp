@@ -21,7 +21,7 @@ bool contains(const std::string &text, const std::string &part) {
 
 TEST_CASE("resume: killed at random times, with other threads each time, the bits stay the same") {
   const TempDir dir;
-  const std::string common = "render " + kGlass + " --quiet --size 120x100 --aov all --spp 96 ";
+  const std::string common = "render " + kGlass + " --quiet --size 120x100 --aov all --spp 384 ";
   REQUIRE(phalanx_in(dir, common + "-o one.exr --threads 2").exit_code == 0);
   const std::string kept = "-o a.exr --report r.json --checkpoint c.ckpt --checkpoint-every 0.05 --resume ";
   std::mt19937 random(1);
@@ -37,12 +37,12 @@ TEST_CASE("resume: killed at random times, with other threads each time, the bit
   CHECK(phalanx_in(dir, common + kept + "--threads 1 --tile-size 8 --mode depth-first").exit_code == 0);
   CHECK(same_pictures(dir / "one.exr", dir / "a.exr"));
   const Json report = Json::parse(read_file(dir / "r.json"));
-  CHECK(report["spp"] == 96);
-  CHECK(report["rays"]["camera"] == 120 * 100 * 96);
+  CHECK(report["spp"] == 384);
+  CHECK(report["rays"]["camera"] == 120 * 100 * 384);
   // Once more: it is finished, and the picture comes at once.
   CHECK(phalanx_in(dir, common + kept + "--threads 1").exit_code == 0);
   CHECK(same_pictures(dir / "one.exr", dir / "a.exr"));
-  CHECK(Json::parse(read_file(dir / "r.json"))["resumed_spp"] == 96);
+  CHECK(Json::parse(read_file(dir / "r.json"))["resumed_spp"] == 384);
 }
 
 TEST_CASE("resume: a checkpoint of another picture is refused, and why is said") {
