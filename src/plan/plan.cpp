@@ -214,7 +214,9 @@ void list_left_out(Plan &plan, const Scene &scene) {
         {"replicates for the error", fmt::format("not asked for (saves {} bytes a pixel)",
                                                  Replicates::bytes_per_pixel(kDefaultReplicates)), 0});
   if (plan.frame.camera.lens_radius == 0)
-    plan.left_out.push_back({"lens samples", "the camera has no lens", 0});
+    plan.left_out.push_back({"lens samples",
+                             plan.frame.camera.kind == kPerspective ? "pinhole camera" : "the camera has no lens",
+                             0});
 }
 
 }  // namespace
