@@ -31,9 +31,10 @@ inline bool can_run_ranks() {
 #endif
 }
 
-/// In front of the program. Root, more ranks than cores and a missing ssh are fine.
+/// In front of the program. Root, more ranks than cores and a missing ssh are fine; hwloc does not look for
+/// an X server, which takes 5 s a rank where the name localhost is not known.
 inline std::string mpirun(int ranks, const std::string &options = "") {
-  return "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_plm_rsh_agent=sh "
+  return "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_plm_rsh_agent=sh HWLOC_COMPONENTS=-gl "
          "mpirun --oversubscribe --bind-to none " + options + " -n " + std::to_string(ranks);
 }
 
