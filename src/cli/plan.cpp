@@ -8,10 +8,9 @@
 
 #include "../core/error.h"
 #include "../report/plan_json.h"
-#include "../scene/build.h"
-#include "../scene/scene_file.h"
 #include "../wavefront/isa.h"
 #include "commands.h"
+#include "load_scene.h"
 #include "picture_options.h"
 #include "text.h"
 
@@ -27,12 +26,7 @@ struct PlanCommand {
 int run_plan(const PlanCommand &command) {
   RenderOptions options = command.options;
   options.isa = resolve_isa(options.isa);
-  Diagnostics diagnostics;
-  const SceneDescription description = load_scene_file(command.scene, diagnostics);
-  diagnostics.throw_if_errors();
-  const Scene scene = build_scene(description, diagnostics);
-  print_problems(diagnostics.warnings(), "warning: ");
-  diagnostics.throw_if_errors();
+  const auto [description, scene] = load_scene(command.scene);
 
   const Plan plan = make_plan(description, scene, options);
   const MemoryPlan memory = plan_memory(plan, scene);

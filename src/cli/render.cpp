@@ -15,12 +15,11 @@
 #include "../output/film_image.h"
 #include "../output/image_file.h"
 #include "../report/report.h"
-#include "../scene/build.h"
 #include "../scene/scene_bytes.h"
-#include "../scene/scene_file.h"
 #include "../wavefront/isa.h"
 #include "commands.h"
 #include "lease_options.h"
+#include "load_scene.h"
 #include "outputs.h"
 #include "picture_options.h"
 #include "progress.h"
@@ -83,17 +82,6 @@ int exit_code_of(const RunStats &stats, bool strict) {
   return strict && stats.invalid.count > 0 ? kExitInvalidSamples : kExitDone;
 }
 
-LoadedScene load(const std::string &path) {
-  Diagnostics diagnostics;
-  LoadedScene loaded;
-  loaded.description = load_scene_file(path, diagnostics);
-  diagnostics.throw_if_errors();
-  loaded.scene = build_scene(loaded.description, diagnostics);
-  if (launched_rank() == 0) print_problems(diagnostics.warnings(), "warning: ");
-  diagnostics.throw_if_errors();
-  return loaded;
-}
-
 /// What this rank needs to render, the same on all ranks.
 struct Workplace {
   LoadedScene loaded;
@@ -107,7 +95,9 @@ struct Workplace {
 void set_up(const RenderCommand &command, Ranks &ranks, bool by_leases, Workplace &work) {
   RenderOptions &options = work.options;
   options.isa = common_isa(ranks, options.isa);
-  work.loaded = load_on_all(ranks, command.lease.shared_files, [&] { return load(command.scene); });
+  work.loaded = load_on_all(ranks, command.lease.shared_files, [&] {
+    return load_scene(command.scene, launched_rank() == 0);
+  });
   agree(ranks, [&] {
     work.plan = make_plan(work.loaded.description, work.loaded.scene, options);
     if (by_leases && (work.plan.replicates > 0 || work.plan.adaptive))

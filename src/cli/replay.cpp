@@ -9,10 +9,9 @@
 #include <memory>
 
 #include "../core/error.h"
-#include "../scene/build.h"
-#include "../scene/scene_file.h"
 #include "../wavefront/isa.h"
 #include "commands.h"
+#include "load_scene.h"
 #include "picture_options.h"
 #include "text.h"
 
@@ -109,12 +108,7 @@ int run_replay(const ReplayCommand &command) {
   read_pixel(command.pixel, x, y);
   RenderOptions options = command.options;
   options.isa = resolve_isa(options.isa);
-  Diagnostics diagnostics;
-  const SceneDescription description = load_scene_file(command.scene, diagnostics);
-  diagnostics.throw_if_errors();
-  const Scene scene = build_scene(description, diagnostics);
-  print_problems(diagnostics.warnings(), "warning: ");
-  diagnostics.throw_if_errors();
+  const auto [description, scene] = load_scene(command.scene);
   make_plan(description, scene, options);  // a bad frame is an error before the long part
   const Accel accel(scene, options.isa, options.threads);
   const Replay replay = replay_sample(scene, accel, description, options, x, y, command.sample);

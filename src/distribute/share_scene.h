@@ -3,16 +3,10 @@
 #include <functional>
 
 #include "../plan/options.h"
-#include "../scene/description.h"
-#include "../scene/scene.h"
+#include "../scene/loaded_scene.h"
 #include "ranks.h"
 
 namespace phalanx {
-
-struct LoadedScene {
-  SceneDescription description;  // on ranks other than 0 only camera, film, sampler and integrator
-  Scene scene;
-};
 
 /// Another rank could not go on, and rank 0 says so: this one has nothing to add.
 struct StoppedByOthers {};

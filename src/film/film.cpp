@@ -180,6 +180,15 @@ double one_over(std::int64_t n) { return n > 0 ? 1.0 / static_cast<double>(n) : 
 
 }  // namespace
 
+double Film::image_mean() const {
+  double sum = 0;
+  for (std::int64_t i = 0; i < num_pixels(); ++i) {
+    const Vec3 m = mean(i);
+    sum += double{m.x} + double{m.y} + double{m.z};
+  }
+  return sum / (3.0 * static_cast<double>(num_pixels()));
+}
+
 Vec3 Film::mean(std::int64_t pixel) const { return scaled(moments_[pixel].mean, 1.0); }
 
 Vec3 Film::variance_of_mean(std::int64_t pixel) const {

@@ -53,6 +53,7 @@ class Film {
   void set_region(Rect region, std::span<const std::byte> bytes);
 
   std::int64_t sample_count(std::int64_t pixel) const { return counts_[pixel]; }
+  double image_mean() const;                       // over pixels and channels
   Vec3 mean(std::int64_t pixel) const;             // linear RGB radiance; 0 without samples
   /// Per channel, sample variance / n. Infinite where n < 2: nothing is known there.
   Vec3 variance_of_mean(std::int64_t pixel) const;

@@ -30,16 +30,6 @@ double cost_of(const std::vector<TileNoise> &tiles, const std::vector<int> &shif
   return cost;
 }
 
-/// Mean over the picture, all channels.
-double mean_of(const Film &film) {
-  double sum = 0;
-  for (std::int64_t i = 0; i < film.num_pixels(); ++i) {
-    const Vec3 m = film.mean(i);
-    sum += double{m.x} + double{m.y} + double{m.z};
-  }
-  return sum / (3.0 * static_cast<double>(film.num_pixels()));
-}
-
 /// Sum over the pixels of a tile of the variance of replicates relative to the mean.
 double noise_of(const Rect &tile, const Replicates &replicates, double eps) {
   const int count = replicates.count();
@@ -93,7 +83,7 @@ Pilot run_pilot(const Scene &scene, const Accel &accel, const Plan &plan, const 
       tiles[static_cast<std::size_t>(t)].cost += static_cast<double>(
           renderer.render(static_cast<int>(t), pass, thread, film, replicates));
   });
-  const double eps = square(0.01 * mean_of(film));
+  const double eps = square(0.01 * film.image_mean());
   for (int t = 0; t < renderer.num_tiles(); ++t)
     tiles[static_cast<std::size_t>(t)].noise = noise_of(renderer.tile(t), replicates, eps);
   return {allocate_samples(tiles), samples * kPilotReplicates, wall_seconds() - start};

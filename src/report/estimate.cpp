@@ -14,14 +14,6 @@ namespace {
 constexpr int kTileSide = 16;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-double sum_of(Vec3 v) { return double{v.x} + double{v.y} + double{v.z}; }
-
-double film_mean(const Film &film) {
-  double sum = 0;
-  for (std::int64_t i = 0; i < film.num_pixels(); i++) sum += sum_of(film.mean(i));
-  return sum / (3.0 * static_cast<double>(film.num_pixels()));
-}
-
 bool has_two_samples_everywhere(const Film &film) {
   for (std::int64_t i = 0; i < film.num_pixels(); i++)
     if (film.sample_count(i) < 2) return false;
@@ -79,7 +71,7 @@ ErrorEstimate estimate_error(const Film &film, bool stratified) {
       stratified ? "sample variance (an upper bound for Sobol points)" : "sample variance"};
   if (!has_two_samples_everywhere(film)) return estimate;
 
-  const double eps = std::pow(0.01 * film_mean(film), 2);
+  const double eps = std::pow(0.01 * film.image_mean(), 2);
   const std::vector<Tile> tiles = tiles_of(film, eps);
   double sum = 0;
   for (const Tile &tile : tiles) sum += tile.sum;
